@@ -12,14 +12,14 @@ mod voters;
 
 use std::sync::Arc;
 
-use crate::edits::{Edits, Hold, Speech};
+use crate::edits::{CameraCue, Edits, Hold, Speech};
 use crate::error::Error;
 use crate::keys::{
     ActionFinder, Actions, BodyTurns, Key, LayerJoints, LayerKeys, Layers, Reconstruction,
 };
 use crate::motion::{Clip, Screen, SeenFrom};
 use crate::recipe::Recipe;
-use crate::sheet::{Feet, RootMotion, Sheet, SpokenLine};
+use crate::sheet::{CameraWork, Feet, RootMotion, Sheet, SpokenLine};
 use crate::signal::{Signals, Spectrum, Speed, Turn};
 use crate::slate::Slate;
 use crate::time::{Clock, Frame};
@@ -56,8 +56,8 @@ pub struct Engine {
 
 /// The sheet's clock, root motion, feet and last frame, a person's holds, the spoken lines, and the place in the cut.
 type SheetSettings = ((Clock, RootMotion, Feet, Frame), Vec<Hold>, Vec<Speech>, InCut);
-/// The koma on which the first drawing stands, the length of the cut, and its slate.
-type InCut = (Option<usize>, Option<usize>, Slate);
+/// The koma on which the first drawing stands, the length of the cut, its slate, and its camera work.
+type InCut = (Option<usize>, Option<usize>, Slate, Vec<CameraCue>);
 
 /// Every intermediate result of a run.
 #[derive(Debug, Clone, Copy)]
@@ -403,10 +403,10 @@ impl Engine {
         let layers = &self.layers[..self.split.output().len()];
         let layers: Vec<_> = layers.iter().map(LayerStages::timed).collect();
         let of = (self.clip.clock(recipe.rate), recipe.root, recipe.feet, self.clip.last());
-        let in_cut = (edits.at, edits.length, edits.slate.clone());
+        let in_cut = (edits.at, edits.length, edits.slate.clone(), edits.camera.clone());
         let settings = (of, edits.holds.clone(), edits.speech.clone(), in_cut);
         self.sheets.try_make(layers, settings, |layers, settings| {
-            let ((clock, root, feet, last), holds, speech, (at, end, slate)) = settings;
+            let ((clock, root, feet, last), holds, speech, (at, end, slate, cues)) = settings;
             let held = |(spaced, omitted): (Of<'_, Spaced>, Of<'_, Omitted>)| {
                 let spaced = &spaced.value().layer;
                 (spaced.clone(), with_holds(&omitted.layer, spaced, holds, *clock))
@@ -418,7 +418,10 @@ impl Engine {
                 let lines = speech.iter().filter_map(|line| line.on_sheet(*clock, *last, length));
                 let mut lines: Vec<SpokenLine> = lines.collect();
                 lines.sort_by_key(|line| line.begin);
-                Sheet { lines, slate: slate.clone(), ..sheet }.placed(*at, *end)
+                let camera = cues.iter().filter_map(|cue| cue.on_sheet(*clock, *last, length));
+                let mut camera: Vec<CameraWork> = camera.collect();
+                camera.sort_by_key(|work| work.begin);
+                Sheet { lines, camera, slate: slate.clone(), ..sheet }.placed(*at, *end)
             };
             Ok([sheet(spaced)?, sheet(layers)?])
         })

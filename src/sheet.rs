@@ -3,6 +3,7 @@
 //! Plain data: every delivered file is a function of (clip, sheet).
 
 mod blank;
+mod camera;
 mod source_time;
 mod spoken;
 mod why;
@@ -17,6 +18,7 @@ use crate::slate::Slate;
 use crate::time::Clock;
 
 pub use blank::Blank;
+pub use camera::CameraWork;
 pub use spoken::SpokenLine;
 pub use why::{Names, Reason, Why};
 
@@ -40,6 +42,9 @@ pub struct Sheet {
     /// Spoken lines (セリフ), sorted by their first koma. Their koma are those of the cut, blank ones included.
     #[serde(default, skip_serializing_if = "is_default")]
     pub lines: Vec<SpokenLine>,
+    /// Camera work (カメラワーク), sorted by its first koma in the cut.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub camera: Vec<CameraWork>,
     /// Blank koma (カラ) before and after the drawings. Layers, exposures and clock do not count them.
     #[serde(default, skip_serializing_if = "is_default")]
     pub blank: Blank,
@@ -299,7 +304,7 @@ impl Sheet {
     pub fn new(clock: Clock, layers: Vec<Layer>) -> Self {
         let (root, feet) = (RootMotion::default(), Feet::default());
         let (blank, slate) = (Blank::default(), Slate::default());
-        Self { clock, layers, root, feet, lines: vec![], blank, slate }
+        Self { clock, layers, root, feet, lines: vec![], camera: vec![], blank, slate }
     }
 
     /// Checks that each exposure lasts at least one koma and shows a drawing of its layer, that all layers together
@@ -325,7 +330,8 @@ impl Sheet {
                 }
             }
         }
-        self.check_lines()
+        self.check_lines()?;
+        self.check_camera()
     }
 
     /// Returns the first layer, which owns every joint that no other layer names.

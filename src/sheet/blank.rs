@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{MOST_KOMA, Sheet, SpokenLine};
+use super::{CameraWork, MOST_KOMA, Sheet, SpokenLine};
 use crate::error::Error;
 
 /// Number of koma of a cut on which nothing is shown, before the first drawing and after the last.
@@ -48,8 +48,8 @@ impl Sheet {
         self.blank.before + self.length() + self.blank.after
     }
 
-    /// Returns the sheet with other blank koma round its drawings. Spoken lines move with the drawings; what of them
-    /// falls out of the cut is cut off.
+    /// Returns the sheet with other blank koma round its drawings. Spoken lines and camera work move with the
+    /// drawings; what of them falls out of the cut is cut off.
     ///
     /// ```
     /// use genga::sheet::{Blank, Sheet};
@@ -70,7 +70,12 @@ impl Sheet {
             Some(SpokenLine { begin, koma, ..line.clone() })
         };
         let lines: Vec<SpokenLine> = self.lines.iter().filter_map(moved).collect();
-        Self { blank, ..self }.with_lines(&lines)
+        let camera = self.camera.iter().filter_map(|work| moved(&work.line()));
+        let camera: Vec<SpokenLine> = camera.collect();
+        // The sheet's own function cuts off what lies beyond its end.
+        let placed = Self { blank, lines: vec![], camera: vec![], ..self };
+        let camera = placed.clone().with_lines(&camera).lines.into_iter();
+        Self { camera: camera.map(CameraWork::from_line).collect(), ..placed }.with_lines(&lines)
     }
 
     /// Returns the sheet with its first drawing on koma `at` of a cut of `length` koma, both from 1. `None` keeps the

@@ -200,6 +200,33 @@ fn what_does_not_fit_into_the_cut_is_refused_with_the_way_out() {
     }
 }
 
+#[test]
+fn camera_work_of_a_recipe_is_on_every_sheet() {
+    let folder = place("kick.bvh");
+    let folder = folder.path();
+    let cue = "[[edits.camera]]\nframes = [12, 60]\ntext = \"PAN 右\"\n";
+    fs::write(folder.join("r.toml"), cue).unwrap();
+    made(folder, "run kick.bvh --recipe r.toml --deliver xdts,tdts,xsheet --out a --at 25");
+    let sheet: Value = serde_json::from_str(&text(folder, "a/sheet.json")).unwrap();
+    assert_eq!(sheet["camera"], json!([{ "begin": 37, "koma": 48, "words": "PAN 右" }]));
+    let field = &timesheet(folder, "a/kick_genga_ts.xdts")["timeTables"][0]["fields"][1];
+    assert_eq!(field["fieldId"], 5);
+    let frames = field["tracks"][0]["frames"].as_array().unwrap();
+    assert_eq!(
+        (frames.len(), &frames[0]["frame"], &frames[0]["data"][0]["values"]),
+        (48, &json!(36), &json!(["PAN 右"]))
+    );
+    assert!(
+        text(folder, "a/kick.tdts").contains("PAN 右")
+            && text(folder, "a/xsheet/0001.svg").contains("PAN 右")
+    );
+    let said = made(folder, "run kick.bvh --deliver json --out a");
+    assert!(said.contains("camera 12..60"), "{said}");
+    fs::write(folder.join("r.toml"), cue.replacen("60", "12", 1)).unwrap();
+    let said = refused(folder, "run kick.bvh --recipe r.toml --out b");
+    assert!(said.contains("the camera work 12..12 has no frame in it"), "{said}");
+}
+
 /// A timesheet as a director wrote it: a background, camera work and dialogue.
 const DIRECTORS: &str = "exchangeDigitalTimeSheet Save Data\n{ \"timeTables\": [ { \"name\": \"c045\", \"duration\": 130,\n\
     \"timeTableHeaders\": [ { \"fieldId\": 0, \"names\": [ \"BG\", \"A\" ] }, { \"fieldId\": 5, \"names\": [ \"CAM\" ] } ],\n\

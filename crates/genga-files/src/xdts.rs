@@ -41,6 +41,8 @@ const TDTS_SIGNATURE: &str = "toeiDigitalTimeSheet Save Data";
 const CELS: u32 = 0;
 /// Field ID of the S column: dialogue; in TDTS sound.
 const SPEECH: u32 = 3;
+/// Field ID of the CAMERA column.
+const CAMERA: u32 = 5;
 /// Field ID of the CELL column in TDTS.
 const TDTS_CELL: u32 = 4;
 

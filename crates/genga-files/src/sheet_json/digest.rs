@@ -63,7 +63,8 @@ pub(crate) fn bytes(bytes: &[u8]) -> String {
 }
 
 /// Digest of the layers as lines with drawings from 0, as in the first schema, the spoken lines, the exaggeration,
-/// root and feet if they are not moved with their drawings, and blank koma and slate if there are any.
+/// root and feet if they are not moved with their drawings, and blank koma,
+/// camera work and slate if there are any.
 pub(super) fn sheet(sheet: &Sheet, exaggerate: &Exaggerate) -> String {
     let mut digest = Digest::new();
     for layer in &sheet.layers {
@@ -85,6 +86,10 @@ pub(super) fn sheet(sheet: &Sheet, exaggerate: &Exaggerate) -> String {
         digest.word(3);
         digest.word(sheet.blank.before as u64);
         digest.word(sheet.blank.after as u64);
+    }
+    if !sheet.camera.is_empty() {
+        let text = serde_json::to_string(&sheet.camera).expect("camera work is plain data");
+        text.bytes().for_each(|byte| digest.word(u64::from(byte)));
     }
     if !sheet.slate.is_empty() {
         digest.word(4);

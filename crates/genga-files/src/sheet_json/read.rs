@@ -10,7 +10,7 @@ use super::text::Text;
 use super::{MadeOf, MadeWith, SCHEMA, SCHEMA_FROM_0, SheetFile, check};
 use genga::error::Error;
 use genga::exaggerate::Exaggerate;
-use genga::sheet::{Blank, Exposure, Layer, Sheet, SpokenLine};
+use genga::sheet::{Blank, CameraWork, Exposure, Layer, Sheet, SpokenLine};
 use genga::slate::Slate;
 use genga::time::{Clock, Frame, FrameRate};
 
@@ -52,6 +52,8 @@ struct Written<'a> {
     length: Option<&'a RawValue>,
     #[serde(borrow)]
     lines: Option<&'a RawValue>,
+    #[serde(borrow)]
+    camera: Option<&'a RawValue>,
     #[serde(borrow)]
     layers: Vec<&'a RawValue>,
 }
@@ -100,6 +102,7 @@ pub fn read(bytes: &[u8]) -> Result<SheetFile, Error> {
     let root = written.root.map(|raw| text.value(raw)).transpose()?.unwrap_or_default();
     let feet = written.feet.map(|raw| text.value(raw)).transpose()?.unwrap_or_default();
     let lines = written.lines.map(|raw| lines(text, raw, first)).transpose()?.unwrap_or_default();
+    let camera = written.camera.map(|raw| camera(text, raw)).transpose()?.unwrap_or_default();
     let slate = written.slate.map(|raw| slate(text, raw)).transpose()?.unwrap_or_default();
     let blank = blank(text, (written.at, written.length), &layers)?;
     let exaggerate = match written.exaggerate {
@@ -113,7 +116,7 @@ pub fn read(bytes: &[u8]) -> Result<SheetFile, Error> {
         clip,
         exaggerate,
         made_with,
-        sheet: Sheet { clock, layers, root, feet, lines, blank, slate },
+        sheet: Sheet { clock, layers, root, feet, lines, camera, blank, slate },
     };
     file.check()?;
     Ok(file)
@@ -123,6 +126,15 @@ fn exaggeration(text: Text<'_>, raw: &RawValue) -> Result<Exaggerate, Error> {
     let exaggerate: Exaggerate = text.value(raw)?;
     exaggerate.validate().map_err(|error| text.error(raw, error.to_string()))?;
     Ok(exaggerate)
+}
+
+fn camera(text: Text<'_>, raw: &RawValue) -> Result<Vec<CameraWork>, Error> {
+    let written: Vec<CameraWork> = text.value(raw)?;
+    let work = |work: CameraWork| match work.begin.checked_sub(1) {
+        Some(begin) => Ok(CameraWork { begin, ..work }),
+        None => Err(text.error(raw, "camera work begins on koma 0; koma count from 1")),
+    };
+    written.into_iter().map(work).collect()
 }
 
 fn slate(text: Text<'_>, raw: &RawValue) -> Result<Slate, Error> {

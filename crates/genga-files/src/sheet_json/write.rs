@@ -9,7 +9,7 @@ use super::{MadeOf, MadeWith, SCHEMA, SheetFile, digest};
 use crate::Cut;
 use genga::error::Error;
 use genga::exaggerate::Exaggerate;
-use genga::sheet::{Feet, RootMotion, SpokenLine, is_default};
+use genga::sheet::{CameraWork, Feet, RootMotion, SpokenLine, is_default};
 use genga::slate::Slate;
 
 /// The sheet of a cut as `sheet.json`.
@@ -45,6 +45,8 @@ struct Written<'a> {
     length: Option<usize>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     lines: Vec<SpokenLine>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    camera: Vec<CameraWork>,
     layers: Vec<LayerLines>,
 }
 
@@ -95,6 +97,7 @@ impl SheetFile {
             at: (blank.before > 0).then_some(blank.before + 1),
             length: (blank.after > 0).then(|| self.sheet.cut_length()),
             lines: self.sheet.lines.iter().map(from_1).collect(),
+            camera: self.sheet.camera.iter().map(work_from_1).collect(),
             layers: self.sheet.layers.iter().map(|layer| LayerLines::new(layer, 1)).collect(),
         };
         let mut bytes = Vec::new();
@@ -103,6 +106,11 @@ impl SheetFile {
         bytes.push(b'\n');
         Ok(String::from_utf8(bytes).expect("JSON is text"))
     }
+}
+
+/// Counts the koma of camera work from 1.
+fn work_from_1(work: &CameraWork) -> CameraWork {
+    CameraWork { begin: work.begin + 1, ..work.clone() }
 }
 
 /// Counts the koma of a spoken line from 1.

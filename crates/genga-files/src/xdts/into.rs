@@ -77,6 +77,9 @@ impl IntoTimesheet {
                 "the sheet's spoken lines are not put in; those of the timesheet stay".into(),
             );
         }
+        if !sheet.camera.is_empty() {
+            notes.push("the sheet's camera work is not put in; that of the timesheet stays".into());
+        }
         let offset = timesheet.len() - text.len();
         let bytes = [&timesheet[..offset], splice.finish().as_bytes()].concat();
         Ok(PutInto { bytes, notes })

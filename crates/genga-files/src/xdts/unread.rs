@@ -6,12 +6,9 @@ use serde_json::Value;
 
 use super::read::signed;
 use super::{
-    BLANK, CELS, CIRCLED, CONTINUED, INBETWEEN, REVERSE, SPEECH, TDTS_CELL, TDTS_SIGNATURE,
+    BLANK, CAMERA, CELS, CIRCLED, CONTINUED, INBETWEEN, REVERSE, SPEECH, TDTS_CELL, TDTS_SIGNATURE,
 };
 use genga::error::Error;
-
-/// Field ID of the CAMERA column.
-const CAMERA: u64 = 5;
 
 /// Names what of an XDTS or TDTS file is not understood and passed over, a phrase each: camera work and other fields,
 /// further time tables, unknown signs and members. Empty if everything is understood.
@@ -82,7 +79,7 @@ impl Found {
                 let name = if id == u64::from(CELS) { "" } else { " (CELL)" };
                 tracks.iter().for_each(|track| self.track(table, id, track, name));
             } else if id != u64::from(SPEECH) && tracks.iter().any(is_used) {
-                let name = if id == CAMERA {
+                let name = if id == u64::from(CAMERA) {
                     "CAMERA (camera work)".into()
                 } else {
                     format!("field {id}")

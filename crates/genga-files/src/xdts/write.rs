@@ -90,11 +90,17 @@ pub(super) fn time_table(sheet: &Sheet, cut: &str, columns: &[(u32, Column)]) ->
     };
     let named = |&(field_id, _): &(u32, Column)| Names { field_id, names: names.clone() };
     let (spoken, spoken_names) = speech::field(&sheet.lines).unzip();
+    let (camera, camera_names) = speech::camera_field(&sheet.camera).unzip();
     TimeTable {
         duration: sheet.cut_length() as u64,
-        fields: columns.iter().map(field).chain(spoken).collect(),
+        fields: columns.iter().map(field).chain(spoken).chain(camera).collect(),
         name: cut.into(),
-        time_table_headers: columns.iter().map(named).chain(spoken_names).collect(),
+        time_table_headers: columns
+            .iter()
+            .map(named)
+            .chain(spoken_names)
+            .chain(camera_names)
+            .collect(),
     }
 }
 

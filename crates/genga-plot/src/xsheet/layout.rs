@@ -85,6 +85,12 @@ impl<'a> Page<'a> {
         Place { left: half.left + NUMBERS + STRIP + BLOCK, width: SPEECH }
     }
 
+    /// Returns the CAMERA column.
+    pub(super) fn camera(&self, half: Half) -> Place {
+        let left = half.left + NUMBERS + STRIP + BLOCK + SPEECH + BLOCK;
+        Place { left, width: half.left + HALF - left }
+    }
+
     fn place(&self, left: f64, at: usize) -> Place {
         let width = BLOCK / self.columns() as f64;
         Place { left: left + width * at as f64, width }

@@ -2,7 +2,7 @@
 
 use super::*;
 use genga::motion::bvh;
-use genga::sheet::{Blank, Drawing, Exposure, Layer, Role, Source, SpokenLine, Why};
+use genga::sheet::{Blank, CameraWork, Drawing, Exposure, Layer, Role, Source, SpokenLine, Why};
 
 fn clip() -> Clip {
     let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/kick.bvh");
@@ -111,6 +111,21 @@ fn a_cut_that_is_entered_late_is_blank_before_and_has_its_koma_behind() {
     // A cross at both ends of both columns, and one in the legend: two lines each.
     let crosses = |page: &str| page.matches("stroke-width=\"1.4\"").count();
     assert_eq!((crosses(&plain[0]), crosses(&late[0])), (2, 2 + 2 * 2 * 2));
+}
+
+#[test]
+fn camera_work_stands_in_the_camera_column() {
+    let work = |begin, koma, words: &str| CameraWork { begin, koma, words: words.into() };
+    let camera = vec![work(2, 12, "PAN"), work(80, 20, "T.U")];
+    let sheet = Sheet { camera, ..sheet(vec![layer("A", &[('e', 144)])]) };
+    let page = XSheet::default().draw("kick", &clip(), &sheet).unwrap().remove(0);
+    for (words, half) in [("PAN", 0), ("T.U", 1)] {
+        let line = page.lines().find(|line| line.contains(&format!(">{words}<"))).unwrap();
+        let x = line.split(" x=\"").nth(1).unwrap().split('"').next().unwrap();
+        let x = x.parse::<f64>().unwrap();
+        let right = [490.0, 992.0][half];
+        assert!(x > right - 60.0 && x < right, "{words}: {line}");
+    }
 }
 
 #[test]
@@ -239,7 +254,7 @@ fn a_half_has_the_exposures_and_gauges_that_a_look_at_all_finds() {
                 shares: vec![0.5; 5],
             })
             .collect();
-        let leaf = Leaf::new(&layer, &gauges);
+        let leaf = Leaf::new(&layer, &gauges, 0);
         let highest = layer.exposures.iter().map(|shown| shown.drawing).max();
         let end = layer.timed().filter(|(_, shown)| Some(shown.drawing) == highest).last();
         assert_eq!(leaf.end, end.map(|(begin, _)| begin));

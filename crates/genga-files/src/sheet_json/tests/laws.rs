@@ -3,7 +3,7 @@
 use proptest::prelude::*;
 
 use super::*;
-use genga::edits::{Edits, Forbidden, Hold, LayerEdits, Move, Pin, Speech};
+use genga::edits::{CameraCue, Edits, Forbidden, Hold, LayerEdits, Move, Pin, Speech};
 use genga::exaggerate::{CartoonParts, Exaggerate};
 use genga::sheet::{
     Blank, Drawing, Exposure, Feet, Layer, Reason, RootMotion, Sheet, SpokenLine, Why,
@@ -113,6 +113,7 @@ fn made_with() -> impl Strategy<Value = MadeWith> {
                 frozen,
                 splits,
                 speech,
+                camera: vec![CameraCue { frames: [Frame(3), Frame(9)], text: "PAN".into() }],
                 at: Some(1 + digest.len()),
                 length: None,
                 slate: Slate::from_name("s1_c2"),
@@ -185,6 +186,7 @@ fn sheet_file() -> impl Strategy<Value = SheetFile> {
                     root,
                     feet,
                     lines: vec![],
+                    camera: vec![],
                     blank,
                     slate,
                 }
