@@ -6,7 +6,6 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
 use crate::sanitize::is_hidden;
-use crate::sheet::is_default;
 
 /// Most digits of a number in a file name. A longer run of digits is a date or a serial number.
 const MOST_DIGITS: usize = 4;
@@ -20,22 +19,22 @@ const MOST_DIGITS: usize = 4;
 )]
 pub struct Slate {
     /// The title of the work (作品).
-    #[serde(skip_serializing_if = "is_default")]
+    #[serde(skip_serializing_if = "String::is_empty")]
     pub title: String,
     /// The episode (話数).
-    #[serde(skip_serializing_if = "is_default")]
+    #[serde(skip_serializing_if = "String::is_empty")]
     pub episode: String,
     /// The scene (シーン).
-    #[serde(skip_serializing_if = "is_default")]
+    #[serde(skip_serializing_if = "String::is_empty")]
     pub scene: String,
     /// The cut (カット), possibly with a letter: `45A`.
-    #[serde(skip_serializing_if = "is_default")]
+    #[serde(skip_serializing_if = "String::is_empty")]
     pub cut: String,
     /// The take (テイク).
-    #[serde(skip_serializing_if = "is_default")]
+    #[serde(skip_serializing_if = "String::is_empty")]
     pub take: String,
     /// The name of the key animator (原画).
-    #[serde(skip_serializing_if = "is_default")]
+    #[serde(skip_serializing_if = "String::is_empty")]
     pub animator: String,
 }
 

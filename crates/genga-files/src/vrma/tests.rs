@@ -166,9 +166,9 @@ fn the_first_pose_stands_over_the_blank_koma_before_it() {
             [place(&placed, "hips"), place(&placed, "leftHand")]
         };
         for koma in 0..73 {
-            let shown = koma.max(24).min(60) - 24;
-            let apart = hand(&late, koma).into_iter().zip(hand(&plain, shown));
-            assert!(apart.into_iter().all(|(a, b)| a.abs_diff_eq(b, 1e-5)), "koma {koma}");
+            let shown = koma.clamp(24, 60) - 24;
+            let mut apart = hand(&late, koma).into_iter().zip(hand(&plain, shown));
+            assert!(apart.all(|(a, b)| a.abs_diff_eq(b, 1e-5)), "koma {koma}");
         }
     }
 }

@@ -174,9 +174,9 @@ fn the_first_pose_stands_over_the_blank_koma_before_it_and_the_last_over_those_a
                 assert_eq!(pose(&late, frame as f32), pose(&plain, 0.0), "{bone}, {frame}");
             }
             for frame in 0..=last {
-                let near =
+                let mut near =
                     pose(&late, (frame + 30) as f32).into_iter().zip(pose(&plain, frame as f32));
-                assert!(near.into_iter().all(|(a, b)| (a - b).abs() < 1e-5), "{bone}, {frame}");
+                assert!(near.all(|(a, b)| (a - b).abs() < 1e-5), "{bone}, {frame}");
             }
             assert_eq!(pose(&late, (last + 55) as f32), pose(&plain, last as f32), "{bone}");
         }

@@ -99,7 +99,7 @@ fn the_timesheet_becomes_longer_only_if_the_cut_is() {
 #[test]
 fn a_sheet_of_marks_gets_numbered_keys_and_a_word_decides_otherwise() {
     let marked =
-        DIRECTORS.replacen("[\"SYMBOL_NULL_CELL\"]}]}]},\r\n", "[\"SYMBOL_TICK_1\"]}]}]},\r\n", 1);
+        DIRECTORS.replacen("[\"SYMBOL_NULL_CELL\"]}]}]}\r\n]", "[\"SYMBOL_TICK_1\"]}]}]}\r\n]", 1);
     let (text, notes) = put(&named("C"), &marked, &cut_of_24());
     assert_eq!(notes[1], "column C in ACTION is new");
     assert_eq!(text.matches("SYMBOL_TICK_1").count(), 1 + 3);
@@ -121,7 +121,7 @@ fn a_tdts_gets_both_columns_and_keeps_its_own_members() {
             assert_eq!(sheet.columns[0].changes, sheet.columns[1].changes);
             assert_eq!((sheet.columns.len(), &*sheet.columns[1].name), (2, "B"));
         }
-        assert_eq!(cell.columns[0].changes.len(), 8);
+        assert_eq!(cell.columns[0].changes.len(), 7);
         assert!(text.contains("\"color\":3,"));
     }
 }
@@ -136,7 +136,7 @@ fn lists_that_are_not_there_are_made() {
     let empty = "exchangeDigitalTimeSheet Save Data\n{\"timeTables\":[{\"duration\":9,\"timeTableHeaders\":[ ],\
                  \"fields\":[]}],\"version\":5}";
     let (text, _) = put(&IntoTimesheet::default(), empty, &cut_of_24());
-    assert_eq!(read_cells(text.as_bytes()).unwrap().columns[0].changes.len(), 8);
+    assert_eq!(read_cells(text.as_bytes()).unwrap().columns[0].changes.len(), 7);
 }
 
 #[test]
