@@ -1,5 +1,6 @@
 //! A person's corrections. They are anchored to source frames, so that they survive a recompute.
 
+mod camera;
 mod forbidden;
 mod hold;
 mod layer;
@@ -14,8 +15,10 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
 use crate::sheet::is_default;
+use crate::slate::Slate;
 use crate::time::Frame;
 
+pub use camera::CameraCue;
 pub use forbidden::Forbidden;
 pub use hold::Hold;
 pub use layer::{LayerEdits, layer_of};
@@ -55,6 +58,19 @@ pub struct Edits {
     /// Spoken lines (セリフ) for the S column. They change no drawing.
     #[serde(skip_serializing_if = "is_default")]
     pub speech: Vec<Speech>,
+    /// Camera work (カメラワーク) for the CAMERA column. It changes no drawing.
+    #[serde(skip_serializing_if = "is_default")]
+    pub camera: Vec<CameraCue>,
+    /// The koma of the cut, from 1, on which the first drawing stands. Default: the first; later ones leave blank koma
+    /// (カラ) before it.
+    #[serde(skip_serializing_if = "is_default")]
+    pub at: Option<usize>,
+    /// Number of koma of the cut (尺). Default: it ends with the drawings; a longer one leaves blank koma after them.
+    #[serde(skip_serializing_if = "is_default")]
+    pub length: Option<usize>,
+    /// Names and numbers of the cut, over those of the file name.
+    #[serde(skip_serializing_if = "is_default")]
+    pub slate: Slate,
     /// Corrections of single layers by name; all other corrections apply to every layer.
     #[serde(skip_serializing_if = "layer::say_nothing")]
     pub layers: BTreeMap<String, LayerEdits>,
@@ -126,7 +142,9 @@ impl Edits {
                 "frozen frame {outside} is not in the clip, which has frames {clip}"
             ));
         }
+        self.slate.validate()?;
         self.splits.iter().try_for_each(|split| check_split(*split, clip))?;
+        self.camera.iter().try_for_each(|cue| check_cue(cue, clip))?;
         self.speech.iter().try_for_each(|line| check_speech(line, clip))
     }
 
@@ -215,6 +233,20 @@ fn check_speech(line: &Speech, clip: Frames) -> Result<(), Error> {
     if from > clip.last || past <= clip.first {
         return wrong(format!(
             "the line {from}..{past} is not in the clip, which has frames {clip}"
+        ));
+    }
+    Ok(())
+}
+
+fn check_cue(cue: &CameraCue, clip: Frames) -> Result<(), Error> {
+    if let Some(fault) = cue.fault() {
+        return wrong(fault);
+    }
+    let [from, past] = cue.frames;
+    if from > clip.last || past <= clip.first {
+        let text = &cue.text;
+        return wrong(format!(
+            "the camera work \"{text}\" is not in the clip, which has frames {clip}"
         ));
     }
     Ok(())

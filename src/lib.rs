@@ -88,6 +88,7 @@ pub mod recipe;
 pub mod sanitize;
 pub mod sheet;
 pub mod signal;
+pub mod slate;
 pub mod target;
 pub mod time;
 pub mod timing;

@@ -14,15 +14,16 @@ mod voters;
 use std::borrow::Cow;
 use std::sync::Arc;
 
-use crate::edits::{Edits, Hold, Speech};
+use crate::edits::{CameraCue, Edits, Hold, Speech};
 use crate::error::Error;
 use crate::keys::{
     ActionFinder, Actions, BodyTurns, Key, LayerJoints, LayerKeys, Layers, Reconstruction,
 };
 use crate::motion::{Clip, Screen, SeenFrom};
 use crate::recipe::Recipe;
-use crate::sheet::{Feet, RootMotion, Sheet, SpokenLine};
+use crate::sheet::{CameraWork, Feet, RootMotion, Sheet, SpokenLine};
 use crate::signal::{Signals, Spectrum, Speed, Turn};
+use crate::slate::Slate;
 use crate::time::{Clock, Frame};
 use crate::timing::{Omitted, Spaced, with_holds};
 
@@ -60,8 +61,10 @@ pub struct Engine {
     is_whole: bool,
 }
 
-/// The sheet's clock, root motion, feet and last frame, a person's holds, and the spoken lines.
-type SheetSettings = ((Clock, RootMotion, Feet, Frame), Vec<Hold>, Vec<Speech>);
+/// The sheet's clock, root motion, feet and last frame, a person's holds, the spoken lines, and the place in the cut.
+type SheetSettings = ((Clock, RootMotion, Feet, Frame), Vec<Hold>, Vec<Speech>, InCut);
+/// The koma on which the first drawing stands, the length of the cut, its slate, and its camera work.
+type InCut = (Option<usize>, Option<usize>, Slate, Vec<CameraCue>);
 
 /// Every intermediate result of a run.
 #[derive(Debug, Clone, Copy)]
@@ -236,7 +239,7 @@ impl Engine {
             layer.time(&measured, joints, recipe, &later)?;
             done(layer);
         }
-        self.sheet(recipe, edits);
+        self.sheet(recipe, edits)?;
         self.cut(recipe, own);
         self.is_whole = true;
         Ok(self.breakdown(recipe))
@@ -504,28 +507,33 @@ impl Engine {
     }
 
     /// Builds the sheet before and after omission and a person's holds.
-    fn sheet(&mut self, recipe: &Recipe, edits: &Edits) {
+    fn sheet(&mut self, recipe: &Recipe, edits: &Edits) -> Result<(), Error> {
         let layers = &self.layers[..self.split.output().len()];
         let layers: Vec<_> = layers.iter().map(LayerStages::timed).collect();
         let laid = &self.laid.output().value().clip;
         let of = (laid.clock(recipe.rate), recipe.root, recipe.feet, laid.last());
-        let settings = (of, edits.holds.clone(), edits.speech.clone());
-        self.sheets.make(layers, settings, |layers, settings| {
-            let ((clock, root, feet, last), holds, speech) = settings;
+        let in_cut = (edits.at, edits.length, edits.slate.clone(), edits.camera.clone());
+        let settings = (of, edits.holds.clone(), edits.speech.clone(), in_cut);
+        self.sheets.try_make(layers, settings, |layers, settings| {
+            let ((clock, root, feet, last), holds, speech, (at, end, slate, cues)) = settings;
             let held = |(spaced, omitted): (Of<'_, Spaced>, Of<'_, Omitted>)| {
                 let spaced = &spaced.value().layer;
                 (spaced.clone(), with_holds(&omitted.layer, spaced, holds, *clock))
             };
             let (spaced, layers) = layers.into_iter().map(held).unzip();
-            [spaced, layers].map(|layers| {
+            let sheet = |layers| {
                 let sheet = Sheet { root: *root, feet: *feet, ..Sheet::new(*clock, layers) };
                 let length = sheet.length();
                 let lines = speech.iter().filter_map(|line| line.on_sheet(*clock, *last, length));
                 let mut lines: Vec<SpokenLine> = lines.collect();
                 lines.sort_by_key(|line| line.begin);
-                Sheet { lines, ..sheet }
-            })
-        });
+                let camera = cues.iter().filter_map(|cue| cue.on_sheet(*clock, *last, length));
+                let mut camera: Vec<CameraWork> = camera.collect();
+                camera.sort_by_key(|work| work.begin);
+                Sheet { lines, camera, slate: slate.clone(), ..sheet }.placed(*at, *end)
+            };
+            Ok([sheet(spaced)?, sheet(layers)?])
+        })
     }
 }
 

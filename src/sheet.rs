@@ -2,6 +2,8 @@
 //!
 //! Plain data: every delivered file is a function of (clip, sheet).
 
+mod blank;
+mod camera;
 mod source_time;
 mod spoken;
 mod why;
@@ -13,8 +15,11 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
 use crate::knob::choices;
+use crate::slate::Slate;
 use crate::time::{Clock, FrameRate};
 
+pub use blank::Blank;
+pub use camera::CameraWork;
 pub use spoken::SpokenLine;
 pub use why::{Names, Reason, Why};
 
@@ -35,9 +40,18 @@ pub struct Sheet {
     /// Whether a foot on the ground stays in place.
     #[serde(default, skip_serializing_if = "is_default")]
     pub feet: Feet,
-    /// Spoken lines (セリフ), sorted by their first koma.
+    /// Spoken lines (セリフ), sorted by their first koma. Their koma are those of the cut, blank ones included.
     #[serde(default, skip_serializing_if = "is_default")]
     pub lines: Vec<SpokenLine>,
+    /// Camera work (カメラワーク), sorted by its first koma in the cut.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub camera: Vec<CameraWork>,
+    /// Blank koma (カラ) before and after the drawings. Layers, exposures and clock do not count them.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub blank: Blank,
+    /// Names and numbers of the cut; empty fields are those of the file name.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub slate: Slate,
     /// The round that repeats; `None` for a sheet that is played once.
     #[serde(default, skip_serializing_if = "is_default")]
     pub repeat: Option<Repeat>,
@@ -331,10 +345,12 @@ impl Layer {
 }
 
 impl Sheet {
-    /// Creates a sheet of these layers, with the default motion of root and feet.
+    /// Creates a sheet of these layers, with the default motion of root and feet, without blank koma or slate.
     pub fn new(clock: Clock, layers: Vec<Layer>) -> Self {
         let (root, feet) = (RootMotion::default(), Feet::default());
-        Self { clock, layers, root, feet, lines: vec![], repeat: None }
+        let (blank, slate) = (Blank::default(), Slate::default());
+        let (lines, camera, repeat) = (vec![], vec![], None);
+        Self { clock, layers, root, feet, lines, repeat, camera, blank, slate }
     }
 
     /// Checks that each exposure lasts at least one koma and shows a drawing of its layer, that all layers together
@@ -345,6 +361,10 @@ impl Sheet {
     /// [`Error::Sheet`] naming the first layer or line that fails.
     pub fn check(&self) -> Result<(), Error> {
         self.layers.iter().try_fold(0, |before, layer| layer.check(before))?;
+        let Blank { before, after } = self.blank;
+        if before.saturating_add(after) > MOST_KOMA {
+            return Err(Error::sheet(format!("the sheet has over {MOST_KOMA} blank koma")));
+        }
         let mut layer_of = HashMap::new();
         for layer in &self.layers {
             for joint in &layer.joints {
@@ -356,7 +376,8 @@ impl Sheet {
                 }
             }
         }
-        self.check_lines()
+        self.check_lines()?;
+        self.check_camera()
     }
 
     /// Returns the first layer, which owns every joint that no other layer names.
@@ -370,7 +391,7 @@ impl Sheet {
         layer.ok_or_else(|| Error::sheet("the sheet is empty: its first layer has no koma"))
     }
 
-    /// Number of koma in the sheet: those of its longest layer.
+    /// Number of koma with drawings: those of the longest layer. [`Sheet::cut_length`] has the blank ones too.
     pub fn length(&self) -> usize {
         self.layers.iter().map(Layer::length).max().unwrap_or(0)
     }

@@ -74,7 +74,8 @@ def read(path, layer_name=""):
 def layer_of(sheet, layer_name=""):
     """Returns a layer as fps, source_fps, length in koma, root_on_ones, and exposures (first koma, source).
 
-    A source is a place in the take, or (place, place, share) for a blend of two.
+    A source is a place in the take, or (place, place, share) for a blend of two. Over the blank koma of a cut that the
+    drawings enter late or leave early, the first and the last pose stand.
     """
     layers = {layer["name"]: layer for layer in reversed(sheet["layers"])}
     if layer_name and layer_name not in layers:
@@ -83,7 +84,7 @@ def layer_of(sheet, layer_name=""):
         raise ValueError("the sheet has no layer")
     layer = layers[layer_name] if layer_name else sheet["layers"][0]
     drawings = {drawing["drawing"]: drawing for drawing in layer["drawings"]}
-    exposures, koma = [], 0
+    exposures, koma = [], sheet.get("at", 1) - 1
     for exposure in layer["exposures"]:
         drawing = drawings[exposure["drawing"]]
         blend = drawing.get("between")
@@ -95,7 +96,7 @@ def layer_of(sheet, layer_name=""):
     return {
         "fps": sheet["fps"],
         "source_fps": source_fps,
-        "length": koma,
+        "length": max(koma, sheet.get("length", 0)),
         "root_on_ones": sheet.get("root") == "ones",
         "exposures": exposures,
     }

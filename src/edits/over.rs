@@ -44,6 +44,11 @@ impl Edits {
         }
         both.speech.retain(|line| !self.speech.contains(line));
         both.speech.extend(self.speech);
+        both.camera.retain(|cue| !self.camera.contains(cue));
+        both.camera.extend(self.camera);
+        both.at = self.at.or(both.at);
+        both.length = self.length.or(both.length);
+        both.slate = self.slate.over(both.slate);
         both.without_empty_layers()
     }
 
@@ -71,6 +76,7 @@ impl Edits {
         self.holds.retain(|hold| clip.has(hold.frame));
         self.splits.retain(|split| *split > first && clip.has(*split));
         self.speech.retain(|line| line.from <= last && line.past > first);
+        self.camera.retain(|cue| cue.frames[0] <= last && cue.frames[1] > first);
         self.without_empty_layers()
     }
 

@@ -223,7 +223,8 @@ mod tests {
     use std::error::Error as _;
 
     use super::*;
-    use crate::edits::{Hold, LayerEdits, Move, Pin, Speech};
+    use crate::edits::{CameraCue, Hold, LayerEdits, Move, Pin, Speech};
+    use crate::slate::Slate;
     use crate::time::Frame;
 
     #[test]
@@ -271,6 +272,10 @@ mod tests {
             layers: [("B".to_owned(), of_arm)].into(),
             splits: vec![Frame(40), Frame(120)],
             speech: vec![Speech::parse("12..40:アキ:\"えい\" # = 1").unwrap()],
+            camera: vec![CameraCue { frames: [Frame(12), Frame(40)], text: "PAN".into() }],
+            at: Some(25),
+            length: Some(130),
+            slate: Slate { cut: "45A".into(), animator: "アキ".into(), ..Slate::default() },
         };
         let text = recipe.write(&edits);
         assert_eq!(Recipe::parse(&text).unwrap(), (recipe, edits), "{text}");

@@ -67,7 +67,7 @@ impl SpokenLine {
 impl Sheet {
     /// Checks that each line has koma and text, ends within the sheet, and begins no earlier than the line before.
     pub(super) fn check_lines(&self) -> Result<(), Error> {
-        let length = self.length();
+        let length = self.cut_length();
         for line in &self.lines {
             let (words, begin) = (&line.words, line.begin);
             if line.koma == 0 || words.trim().is_empty() {
@@ -93,7 +93,7 @@ impl Sheet {
 
     /// Replaces the lines of the sheet, cutting off whatever lies beyond its end.
     pub fn with_lines(mut self, lines: &[SpokenLine]) -> Self {
-        let length = self.length();
+        let length = self.cut_length();
         let heard = lines.iter().filter(|line| line.begin < length);
         let cut = |line: &SpokenLine| SpokenLine {
             koma: line.koma.min(length - line.begin),

@@ -18,6 +18,7 @@ mod cases; // number of cases of a heavy property test
 mod clips; // reads the clips of the tests
 mod contacts; // contacts as keys, and feet that stay where they stand
 mod corrections; // corrections add up from run to run, and the summary says what each did
+mod cut; // the slate, late entries, and somebody else's timesheet
 mod defaults; // the method page states every default correctly
 mod documented; // every format and setting is in the docs
 mod examples;

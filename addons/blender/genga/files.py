@@ -45,13 +45,13 @@ class Exposure:
 
 
 class Layer:
-    """A column of the sheet: its joints, and its exposures in order."""
+    """A column of the sheet: its joints, and its exposures in order. The first drawing stands on koma `begin`, from 0."""
 
-    def __init__(self, layer):
+    def __init__(self, layer, begin=0):
         self.name = layer["name"]
         self.joints = [str(joint) for joint in layer.get("joints", [])]
         drawings = {drawing["drawing"]: drawing for drawing in layer["drawings"]}
-        self.exposures, self.length = [], 0
+        self.exposures, self.length = [], begin
         for exposure in layer["exposures"]:
             self.exposures.append(Exposure(self.length, drawings[exposure["drawing"]]))
             self.length += exposure["koma"]
@@ -70,8 +70,9 @@ class Sheet:
         self.take = str(clip["file"])
         self.joints = [str(joint) for joint in clip["joints"]]
         self.first, self.frames = int(clip["first_frame"]), int(clip["frames"])
-        self.layers = [Layer(layer) for layer in sheet["layers"]]
-        self.length = max(layer.length for layer in self.layers)
+        # Before the koma `at`, which counts from 1, and after the last drawing the cut is blank. The poses stand there.
+        self.layers = [Layer(layer, int(sheet.get("at", 1)) - 1) for layer in sheet["layers"]]
+        self.length = max([int(sheet.get("length", 0)), *(layer.length for layer in self.layers)])
         self.root_on_ones = sheet.get("root") == "ones"
         self.feet_held = sheet.get("feet") == "held"
         self.exaggerated = "exaggerate" in sheet

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::camera_args::SeenArgs;
+use super::cut_args::CutArgs;
 use super::failure::Failure;
 use super::headings::{CORRECTIONS, SHEET};
 use super::{files, paths};
@@ -36,6 +37,8 @@ pub(super) struct Corrections {
     layers: LayerArgs,
     #[command(flatten)]
     pub(super) seen: SeenArgs,
+    #[command(flatten)]
+    cut: CutArgs,
     /// Pin frames as keys: --pin 12,150:wrist-top,180@0.5
     ///
     /// Each is [LAYER/]FRAME[:NAME][@WEIGHT], with a name and a spacing weight: 200:hit@0. B/150 pins only in layer B;
@@ -171,6 +174,7 @@ impl Corrections {
     /// Puts the corrections of the command line on top of those of a recipe.
     fn put(&self, edits: &mut Edits) -> Result<(), Failure> {
         self.keys(edits)?;
+        self.cut.put(edits);
         for hold in &self.holds {
             let hold = Hold::parse(hold).map_err(|error| wrongly("hold", error))?;
             edits.holds.retain(|other| other.frame != hold.frame);

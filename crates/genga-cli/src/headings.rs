@@ -6,5 +6,9 @@ pub(super) const FILES: &str = "Files";
 pub(super) const SHEET: &str = "Sheet";
 /// Corrections of the keys and the timing.
 pub(super) const CORRECTIONS: &str = "Corrections";
+/// Options of the cut that the sheet belongs to.
+pub(super) const CUT: &str = "Cut";
+/// Options of a timesheet that the columns go into.
+pub(super) const INTO: &str = "Existing timesheet";
 /// Rare options, of how the motion is read.
 pub(super) const READING: &str = "Reading the motion";

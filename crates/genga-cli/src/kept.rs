@@ -65,6 +65,12 @@ fn list(edits: &Edits) -> Vec<String> {
     list.extend(edits.holds.iter().map(|hold| format!("hold {}:{}", hold.frame, hold.koma)));
     list.extend(edits.splits.iter().map(|split| format!("split {split}")));
     list.extend(edits.speech.iter().map(|line| format!("say {}..{}", line.from, line.past)));
+    let cues = edits.camera.iter().map(|cue| cue.frames);
+    list.extend(cues.map(|[from, past]| format!("camera {from}..{past}")));
+    list.extend(edits.at.map(|at| format!("at {at}")));
+    list.extend(edits.length.map(|length| format!("length {length}")));
+    let slate = edits.slate.named().into_iter().filter(|(_, field)| !field.is_empty());
+    list.extend(slate.map(|(name, field)| format!("{name} {field}")));
     let switches =
         [("only-pins", edits.only_pins), ("again", edits.again), ("freeze", edits.freeze())];
     list.extend(switches.into_iter().filter(|(_, is_on)| *is_on).map(|(name, _)| name.into()));

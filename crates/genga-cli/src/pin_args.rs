@@ -6,7 +6,7 @@ use super::console::counted;
 use super::corrections::Corrections;
 use super::failure::Failure;
 use super::format_args::Formats;
-use super::{files, paths};
+use super::{files, into_args, paths};
 use genga::edits::{Edits, Pin};
 use genga::error::Error;
 use genga::pipeline::Engine;
@@ -188,20 +188,20 @@ fn of_timesheet(
     // Computes the sheet without `only_pins`: the marked keys may be the only ones.
     let before = Edits { only_pins: false, ..edits.clone() };
     let sheet = engine.run(recipe, &before)?.sheet;
-    if file.length != sheet.length() {
+    if file.length != sheet.cut_length() {
         return Err(Failure::AskedWrongly(format!(
             "{}: it has {} koma and the sheet of this clip {}, so its keys may stand on other koma here; was \
              the timing edited, or is another part (--trim) meant?",
             name.display(),
             file.length,
-            sheet.length()
+            sheet.cut_length()
         )));
     }
     let pins = xdts::pins(column, numbered, sheet, frames)
         .map_err(|error| Failure::AskedWrongly(format!("{}: {error}", name.display())))?;
     let has_marks =
         column.changes.iter().any(|change| change.circled || change.mark == Mark::Inbetween);
-    let mut notes = Vec::new();
+    let mut notes: Vec<String> = into_args::unread(bytes, name)?.into_iter().collect();
     if numbered == Numbered::Keys && !has_marks {
         notes.push("it has no inbetween marks, so every number on it is a key".into());
     }

@@ -72,7 +72,7 @@ pub(super) fn write(cut: &Cut<'_>, settings: &Settings, put: &mut Sink<'_>) -> R
         column.douga.push(drawing + 1);
         put(&at(&picture(DOUGA, &column.folder, drawing + 1)), &png)
     })?;
-    let (koma, fps) = (cut.sheet.length(), cut.sheet.clock.koma_rate);
+    let (koma, fps) = (cut.sheet.cut_length(), cut.sheet.clock.koma_rate);
     let genga = env!("CARGO_PKG_VERSION");
     let contents = Contents { schema: SCHEMA, genga, cut: cut.name, fps, koma, columns };
     let failed =

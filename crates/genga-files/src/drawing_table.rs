@@ -65,6 +65,7 @@ impl Drawings {
             let gauge = gauge(&played_clip, played);
             let genga = layer.genga_numbers();
             for ((begin, exposure), gauge) in layer.timed().zip(gauge) {
+                let begin = sheet.blank.before + begin;
                 let drawing = &layer.drawings[exposure.drawing];
                 if self.rows == Rows::Keys && !drawing.role.is_kept() {
                     continue;

@@ -247,7 +247,7 @@ impl Glb {
         let layer = composite.layer();
         let poses = animation::Poses::new(composite, space);
         let write = |name: &str, shown: &[animation::Exposed], binary: &mut Binary| {
-            poses.animation(name, shown, (named, sheet.clock.koma_rate), self.step, binary)
+            poses.animation(name, shown, (named, sheet), self.step, binary)
         };
         let mut animations = vec![write("koma", &animation::all(layer), binary)];
         let genga = animation::genga(layer);

@@ -4,7 +4,8 @@ use crate::{csv_table, number};
 use genga::error::Error;
 use genga::sheet::Sheet;
 
-/// Writes `koma,layer,drawing,role,source_frame,why`, one row per koma and layer. Koma and drawings count from 1,
+/// Writes `koma,layer,drawing,role,source_frame,why`, one row per koma and layer; a koma without a row
+/// is blank. Koma and drawings count from 1,
 /// `source_frame` from 0 as in the file. It is fractional if the pose was sampled between frames.
 ///
 /// # Errors
@@ -15,7 +16,7 @@ pub fn sheet_csv(sheet: &Sheet) -> Result<String, Error> {
         layer.koma().enumerate().map(|(koma, index)| {
             let drawing = &layer.drawings[index];
             [
-                (koma + 1).to_string(),
+                (sheet.blank.before + koma + 1).to_string(),
                 layer.name.clone(),
                 (index + 1).to_string(),
                 drawing.role.word().into(),

@@ -2,19 +2,20 @@
 
 use genga::error::Error;
 use genga::motion::{Clip, Composite, CompositeRows, bvh, played_out};
-use genga::sheet::{Exposure, Sheet};
+use genga::sheet::{Blank, Exposure, Sheet};
 use genga::time::{Frame, FrameRate};
 
 /// Writes the motion of a sheet as a BVH at the sheet's rate, 24 fps. Each row is a koma, with every joint
 /// posed as in its layer's drawing. A drawing at a source frame keeps the numbers it was read from. Holds repeat
-/// their row, except for a root on ones. In a loop the body travels on from round to round.
+/// their row, except for a root on ones. In a loop the body travels on from round to round. The first pose stands over
+/// blank koma before it, the last over those after.
 ///
 /// # Errors
 /// [`Error::Sheet`] as [`Sheet::first_layer`], and if a layer names a joint that the clip does not have.
 pub fn limited_bvh(clip: &Clip, sheet: &Sheet) -> Result<String, Error> {
     let (clip, sheet) = played_out(clip, sheet);
     let composite = Composite::new(&clip, &sheet)?;
-    written(&composite, &sheet, on_screen(&composite))
+    written(&composite, &sheet, on_screen(&composite, sheet.blank))
 }
 
 /// Returns the motion of [`limited_bvh`] as a clip whose frame 0 is koma 0.
@@ -27,7 +28,7 @@ pub fn limited(clip: &Clip, sheet: &Sheet) -> Result<Clip, Error> {
     let skeleton = clip.skeleton();
     let (mut rows, mut row) = (CompositeRows::new(&composite), vec![0.0; skeleton.channels()]);
     let (mut koma, mut values) = (0, Vec::new());
-    for Repeated { drawing, at, times } in on_screen(&composite) {
+    for Repeated { drawing, at, times } in on_screen(&composite, sheet.blank) {
         rows.write(drawing, at, &mut row);
         (0..times).for_each(|_| values.extend_from_slice(&row));
         koma += times;
@@ -36,15 +37,19 @@ pub fn limited(clip: &Clip, sheet: &Sheet) -> Result<Clip, Error> {
     Clip::new(skeleton.clone(), rate, Frame(0), koma, values)
 }
 
-/// Lists the poses on screen in order: one per exposure, or one per koma if the root moves during holds.
-fn on_screen(composite: &Composite<'_>) -> impl Iterator<Item = Repeated> {
+/// Lists the poses on screen in order: one per exposure, or one per koma if the root moves during holds. The first and
+/// the last also fill the blank koma beside them.
+fn on_screen(composite: &Composite<'_>, blank: Blank) -> Vec<Repeated> {
     let slides = composite.slides();
     let shown = move |(begin, Exposure { drawing, koma }): (usize, Exposure)| {
         let rows = if slides { (begin..begin + koma).collect() } else { vec![begin] };
         let times = if slides { 1 } else { koma };
         rows.into_iter().map(move |at| Repeated { drawing, at, times })
     };
-    composite.layer().timed().flat_map(shown)
+    let mut poses: Vec<Repeated> = composite.layer().timed().flat_map(shown).collect();
+    poses.first_mut().into_iter().for_each(|first| first.times += blank.before);
+    poses.last_mut().into_iter().for_each(|last| last.times += blank.after);
+    poses
 }
 
 /// Writes the genga and ends of a sheet as a BVH for a pose library (ポーズ集), one row per drawing in order. With

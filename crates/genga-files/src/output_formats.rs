@@ -273,7 +273,7 @@ pub const FORMATS: &[Format] = &[
         files: &["strip.svg"],
         is_numbered: true,
         make: figures::strip,
-        notes: |cut, settings| Ok(shortened("strip", settings.strip.most, cut.sheet)),
+        notes: |cut, settings| Ok(shortened("strip", settings.strip.most, drawn(cut.sheet))),
     },
     Format {
         name: "contact",
@@ -302,7 +302,7 @@ pub const FORMATS: &[Format] = &[
         goes_to: "films",
         files: &["flipbook.html"],
         make: figures::flipbook,
-        notes: |cut, settings| Ok(shortened("flipbook", settings.flipbook.most, cut.sheet)),
+        notes: |cut, settings| Ok(shortened("flipbook", settings.flipbook.most, drawn(cut.sheet))),
         ..PLAIN
     },
     #[cfg(feature = "pictures")]
@@ -313,7 +313,9 @@ pub const FORMATS: &[Format] = &[
         goes_to: "films",
         files: &["preview.gif"],
         make: figures::preview,
-        notes: |cut, settings| Ok(shortened("preview", settings.preview.most, cut.sheet)),
+        notes: |cut, settings| {
+            Ok(shortened("preview", settings.preview.most, cut.sheet.cut_length()))
+        },
         ..PLAIN
     },
     #[cfg(feature = "video")]
@@ -474,9 +476,13 @@ impl Format {
     }
 }
 
-/// Warns if a picture shows only the beginning of a long sheet.
-fn shortened(name: &str, most: usize, sheet: &Sheet) -> Vec<Warning> {
-    let koma = sheet.layers.first().map_or(0, Layer::length);
+/// Number of koma that have a drawing of the first layer.
+fn drawn(sheet: &Sheet) -> usize {
+    sheet.layers.first().map_or(0, Layer::length)
+}
+
+/// Warns if a picture shows only the beginning of a long sheet of `koma` koma.
+fn shortened(name: &str, most: usize, koma: usize) -> Vec<Warning> {
     let message =
         format!("{name} shows the first {most} of {koma} koma; {name}.most says how many");
     if koma > most { vec![Warning::new("W_SHORTENED", message)] } else { vec![] }

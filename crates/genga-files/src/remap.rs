@@ -63,8 +63,8 @@ impl Remap {
     }
 
     /// Writes a layer as a list for ffmpeg's *concat* demuxer: which source picture is shown, and for how long.
-    /// Each drawing becomes the picture nearest to its instant. A comment says which pictures the list expects, up to
-    /// the one of the source frame `last`.
+    /// Each drawing becomes the picture nearest to its instant. Comments say which pictures the list expects, up to
+    /// the one of the source frame `last`, and how long nothing is shown before and after: a list has pictures alone.
     ///
     /// # Errors
     /// The errors of [`Remap::validate`].
@@ -83,6 +83,15 @@ impl Remap {
             name(0),
             name(last)
         );
+        let seconds = |koma: usize| koma as f64 / rate;
+        let [before, after] = [sheet.blank.before, sheet.blank.after].map(seconds);
+        if !sheet.blank.is_none() {
+            let _ = writeln!(
+                list,
+                "# nothing is shown for {before:.6} s before the first picture and {after:.6} s after the last: \
+                 ffmpeg -vf tpad=start_duration={before:.6}:stop_duration={after:.6} adds them black"
+            );
+        }
         for (at, exposure) in layer.exposures.iter().enumerate() {
             let picture = name(picture(layer.drawings[exposure.drawing].source.place()));
             // ffmpeg assumes 25 pictures per second unless told otherwise.
@@ -90,8 +99,7 @@ impl Remap {
             let is_last = at + 1 == layer.exposures.len();
             let koma = if is_last { exposure.koma - 1 } else { exposure.koma };
             if koma > 0 {
-                let seconds = koma as f64 / rate;
-                let _ = writeln!(list, "{file}duration {seconds:.6}");
+                let _ = writeln!(list, "{file}duration {:.6}", seconds(koma));
             }
             // The last koma is a file of its own, because ffmpeg ignores the duration of the last file.
             if is_last {
@@ -155,7 +163,7 @@ fn quoted(word: &str) -> String {
 }
 
 /// Writes `koma,source_frame,source_time_s,nearest_frame`: the timing alone, for any rig that plays the same
-/// source. Koma count from 1. A sheet of several layers has one row per koma and layer, with a second column
+/// source. Koma count from 1; one without a row is blank. A sheet of several layers has one row per koma and layer, with a second column
 /// `layer`.
 ///
 /// A root on ones adds the column `root_frame`: the source frame of the root's position.
@@ -173,7 +181,7 @@ pub fn remap_csv(sheet: &Sheet) -> Result<String, Error> {
                 let seconds = number(sheet.clock.seconds_from_place(place));
                 let name = has_layers.then(|| layer.name.clone());
                 let row = [
-                    Some((koma + 1).to_string()),
+                    Some((sheet.blank.before + koma + 1).to_string()),
                     name,
                     Some(number(place)),
                     Some(seconds),

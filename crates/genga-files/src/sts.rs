@@ -10,7 +10,7 @@ const SIGNATURE: &[u8; 18] = b"\x11ShiraheiTimeSheet";
 /// Zeros after the length field.
 const RESERVED: [u8; 2] = [0; 2];
 
-/// Writes the sheet with the number of the drawing on every koma, from 1, or 0 once a layer has ended. Layer names
+/// Writes the sheet with the number of the drawing on every koma, from 1, or 0 where it is blank. Layer names
 /// are Shift-JIS, cut at 255 bytes.
 ///
 /// # Errors
@@ -19,7 +19,7 @@ const RESERVED: [u8; 2] = [0; 2];
 pub fn sts(sheet: &Sheet) -> Result<Vec<u8>, Error> {
     sheet.check()?;
     let layers = u8::try_from(sheet.layers.len()).ok().filter(|layers| *layers > 0);
-    let length = u16::try_from(sheet.length()).ok().filter(|length| *length > 0);
+    let length = u16::try_from(sheet.cut_length()).ok().filter(|length| *length > 0);
     let drawings = sheet.layers.iter().map(|layer| layer.drawings.len()).max().unwrap_or(0);
     let fits = u16::try_from(drawings).is_ok();
     let (Some(layers), Some(length), true) = (layers, length, fits) else {
@@ -33,8 +33,11 @@ pub fn sts(sheet: &Sheet) -> Result<Vec<u8>, Error> {
     bytes.extend(RESERVED);
     for layer in &sheet.layers {
         let numbers = layer.koma().map(|drawing| drawing as u16 + 1);
-        let ended = std::iter::repeat_n(0, sheet.length() - layer.length());
-        bytes.extend(numbers.chain(ended).flat_map(u16::to_le_bytes));
+        let before = sheet.blank.before;
+        let after = sheet.cut_length() - before - layer.length();
+        let blank = |koma| std::iter::repeat_n(0, koma);
+        let numbers = blank(before).chain(numbers).chain(blank(after));
+        bytes.extend(numbers.flat_map(u16::to_le_bytes));
     }
     for layer in &sheet.layers {
         let name = name(&layer.name);

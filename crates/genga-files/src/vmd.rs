@@ -24,7 +24,7 @@ pub use genga::motion::BoneMap;
 use genga::motion::body::names::bones::{Model, cp932};
 use genga::motion::body::names::{Found, SHAPE};
 use genga::motion::{Clip, Composite, JointId, Skeleton, played_out};
-use genga::sheet::{Exposure, Layer, Sheet, Source};
+use genga::sheet::{Blank, Exposure, Layer, Sheet, Source};
 pub use genga_read::MmdModel;
 pub use record::{VmdKey, VmdMotion};
 
@@ -198,7 +198,7 @@ impl Vmd {
         let report = report(clip.skeleton(), model, found, retarget.scale);
         let (name, _) = self.name()?;
         let notes = self.notes(clip, sheet)?;
-        let keys = keys(&composite, &frames, &mut retarget)?;
+        let keys = keys(&composite, (&frames, sheet.blank), &mut retarget)?;
         Ok(VmdMade { motion: VmdMotion { model: name, keys, ik_off: cast.ik_off }, report, notes })
     }
 
@@ -347,9 +347,10 @@ impl Frames {
 
 /// Keys every bone on the first frame of each drawing, and on its last frame if that differs. If the root moves
 /// while a drawing is held, the centre is keyed on every koma too. If the feet stay planted meanwhile, every bone is.
+/// The first pose stands over the blank koma before it, the last over those after.
 fn keys(
     composite: &Composite<'_>,
-    frames: &Frames,
+    (frames, blank): (&Frames, Blank),
     retarget: &mut Retarget<'_>,
 ) -> Result<Vec<VmdKey>, Error> {
     let layer = composite.layer();
@@ -371,14 +372,21 @@ fn keys(
             }
             *before = local.rotation;
         }
-        let (first, last) = (frames.frame_at(begin)?, frames.frame_at(begin + exposure.koma)? - 1);
+        let end = blank.pose_ends(begin + exposure.koma, layer.length());
+        let first = frames.frame_at(blank.pose_begins(begin))?;
+        let last = frames.frame_at(end)? - 1;
         keys.extend(posed(retarget, &bones, &pose, first));
         let held = usize::from(slides)..bones.len() * usize::from(last > first);
         if !held.is_empty() {
             keys.extend(posed(retarget, &bones[held.clone()], &pose[held], last));
         }
+        if slides && begin == 0 && blank.before > 0 {
+            // The centre stands over the blank koma, and moves from here.
+            let enters = frames.frame_at(blank.before)?;
+            keys.extend(posed(retarget, &bones[..1], &pose[..1], enters));
+        }
         if slides {
-            keys.extend(slide(retarget, exposure, begin, frames)?);
+            keys.extend(slide(retarget, exposure, begin, (frames, blank))?);
         }
     }
     keys.sort_by_key(|key| key.frame);
@@ -400,12 +408,12 @@ fn slide(
     retarget: &mut Retarget<'_>,
     exposure: Exposure,
     begin: usize,
-    frames: &Frames,
+    (frames, blank): (&Frames, Blank),
 ) -> Result<Vec<VmdKey>, Error> {
     let center = retarget.bones()[0];
     let key = |koma: usize| {
         let local = retarget.take(exposure.drawing, koma)[0];
-        Ok(retarget.key(center, frames.frame_at(koma)?, local))
+        Ok(retarget.key(center, frames.frame_at(blank.before + koma)?, local))
     };
     (begin + 1..begin + exposure.koma).map(key).collect()
 }

@@ -227,7 +227,11 @@ fn animation(
     let taken: Vec<Vec<Local>> =
         turns.iter().map(|(begin, shown)| retarget.take(shown.drawing, *begin)).collect();
     let times = |exposures: &[(usize, Exposure)], binary: &mut Binary| {
-        let holds = exposures.iter().map(|(begin, shown)| (*begin, *begin + shown.koma));
+        let (blank, length) = (sheet.blank, layer.length());
+        let end = |begin: usize, koma: usize| blank.pose_ends(begin + koma, length);
+        let holds = exposures
+            .iter()
+            .map(|(begin, shown)| (blank.pose_begins(*begin), end(*begin, shown.koma)));
         binary.add_bounded(Use::Data, "SCALAR", &STEP.times(holds, koma_rate))
     };
     let turn_times = times(turns, binary);

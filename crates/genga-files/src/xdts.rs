@@ -6,6 +6,7 @@
 //! numbered). Both hold the dialogue (S). TDTS has the same structure and holds everything in one file.
 
 mod file;
+mod into;
 mod pins;
 mod read;
 mod retimed;
@@ -13,12 +14,15 @@ mod speech;
 mod tdts;
 #[cfg(test)]
 pub(super) mod tests;
+mod unread;
 mod write;
 
+pub use into::{IntoTimesheet, PaperColumn, PutInto};
 pub use pins::{Numbered, marked_keys, pins};
 pub use read::{Change, Column, Exchange, Mark, read, read_cells};
 pub use retimed::retimed;
 pub use tdts::Tdts;
+pub use unread::unread;
 pub(super) use write::name as column;
 pub use write::{Xdts, XdtsPair};
 
@@ -37,6 +41,8 @@ const TDTS_SIGNATURE: &str = "toeiDigitalTimeSheet Save Data";
 const CELS: u32 = 0;
 /// Field ID of the S column: dialogue; in TDTS sound.
 const SPEECH: u32 = 3;
+/// Field ID of the CAMERA column.
+const CAMERA: u32 = 5;
 /// Field ID of the CELL column in TDTS.
 const TDTS_CELL: u32 = 4;
 

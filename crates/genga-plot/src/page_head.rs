@@ -50,5 +50,11 @@ pub(super) fn facts(sheet: &Sheet, layer: &Layer) -> String {
     let genga = layer.genga();
     let drawings = layer.shown().count();
     let plural = if drawings == 1 { "" } else { "s" };
-    format!("尺 {length} ({koma} koma) · genga 原画 {genga} · {drawings} drawing{plural} 動画")
+    let begin = match sheet.blank.before {
+        0 => String::new(),
+        before => format!(" · koma 1 here is koma {} of the cut", before + 1),
+    };
+    format!(
+        "尺 {length} ({koma} koma) · genga 原画 {genga} · {drawings} drawing{plural} 動画{begin}"
+    )
 }

@@ -23,13 +23,15 @@ use genga::error::Error;
 use genga::knob::{choices, knob, knobs};
 use genga::motion::{Clip, played_out};
 use genga::sheet::Sheet;
+use genga::slate::Slate;
 use genga::timing::Gauge;
 
 /// The X-sheet (タイムシート): pages for A4 or B4, followed by the spacing gauges (ツメ指示).
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct XSheet {
-    /// The work's title (作品). It and the next three are empty by default, to be written in by hand.
+    /// The work's title (作品). If it or one of the next three is empty, that of the sheet's slate is written, or
+    /// nothing, so that it can be written in by hand.
     pub title: String,
     /// The episode (話数).
     pub episode: String,
@@ -133,6 +135,7 @@ impl XSheet {
     /// [`Error::Sheet`] as in [`Sheet::check`].
     pub fn draw(&self, cut: &str, clip: &Clip, sheet: &Sheet) -> Result<Vec<String>, Error> {
         sheet.check()?;
+        let slate = self.slate(cut, sheet);
         let rounds = sheet.rounds();
         let repeat = (rounds > 1).then(|| sheet.length() / rounds);
         // The way over a seam shows only where the rounds follow each other.
@@ -143,15 +146,27 @@ impl XSheet {
             .layers
             .iter()
             .zip(&gauges)
-            .map(|(layer, gauges)| Leaf::new(layer, gauges, repeat))
+            .map(|(layer, gauges)| Leaf::new(layer, gauges, sheet.blank.before, repeat))
             .collect();
         let mut pages = Vec::new();
-        for page in Page::all(self, cut, sheet, &leaves) {
+        for page in Page::all(self, (cut, &slate), sheet, &leaves) {
             pages.push(page::draw(&page));
         }
         if self.gauges {
-            pages.extend(gauge_page::draw(self, cut, clip, sheet, &leaves));
+            pages.extend(gauge_page::draw(self, (cut, &slate), clip, sheet, &leaves));
         }
         Ok(pages)
+    }
+
+    /// What stands in the head: these settings over the sheet's slate, over the numbers in the name of the cut.
+    fn slate(&self, cut: &str, sheet: &Sheet) -> Slate {
+        let own = Slate {
+            title: self.title.clone(),
+            episode: self.episode.clone(),
+            scene: self.scene.clone(),
+            animator: self.animator.clone(),
+            ..Slate::default()
+        };
+        own.over(sheet.slate.clone()).over(Slate::from_name(cut))
     }
 }

@@ -36,6 +36,9 @@ def spoilt(sheet):
     yield but("two sources", lambda s: layer(s)["drawings"][0].update(between=[0, 1], share=0.5))
     yield but("half a blend", lambda s: layer(s)["drawings"][0].update(share=0.5))
     yield but("a reason nobody knows", lambda s: layer(s)["drawings"][0].update(why={"because": 1}))
+    yield but("a cut that begins on koma 0", lambda s: s.update(at=0))
+    yield but("half a koma of a cut", lambda s: s.update(length=130.5))
+    yield but("a slate with a field nobody knows", lambda s: s.update(slate={"shot": "45"}))
     if "lines" in sheet:
         yield but("koma from 0", lambda s: s["lines"][0].update(begin=0))
     if "exaggerate" in sheet:

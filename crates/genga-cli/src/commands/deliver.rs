@@ -6,11 +6,14 @@ use clap::Args;
 
 use crate::clip::Reading;
 use crate::console::{Words, counted};
+use crate::cut_args::{self, CutArgs};
 use crate::failure::Failure;
 use crate::folder::{Folder, Made};
 use crate::format_args::{FormatArgs, FormatName, Formats, all_made, help, long_help};
+use crate::into_args::{self, IntoArgs};
 use crate::staging::Bundle;
 use crate::{files, paths};
+use genga::error::Error;
 use genga_files::sheet_json::SheetFile;
 use genga_files::{Cut, sheet_json, xdts};
 
@@ -24,7 +27,7 @@ pub(super) struct DeliverArgs {
     #[arg(value_name = "CLIP")]
     clip: PathBuf,
     /// Formats to write: --to remap,bvh, or all.
-    #[arg(long, value_name = "FORMAT,…", value_delimiter = ',', value_parser = FormatName, required_unless_present = "bvh")]
+    #[arg(long, value_name = "FORMAT,…", value_delimiter = ',', value_parser = FormatName, required_unless_present_any = ["bvh", "into"])]
     to: Vec<String>,
     /// For an XDTS or TDTS timesheet: the sheet.json with the drawings that its numbers refer to [default: the one
     /// beside it, or one or two folders above].
@@ -32,6 +35,10 @@ pub(super) struct DeliverArgs {
     drawings: Option<PathBuf>,
     #[command(flatten)]
     formats: FormatArgs,
+    #[command(flatten)]
+    into: IntoArgs,
+    #[command(flatten)]
+    cut: CutArgs,
     #[command(flatten)]
     reading: Reading,
     /// Output folder [default: the folder of the sheet].
@@ -50,11 +57,16 @@ pub(super) fn run(args: &DeliverArgs, words: &Words) -> Result<(), Failure> {
     let folder = args.out.as_deref().unwrap_or_else(|| beside(&args.sheet));
     formats.leave_sheet(&args.sheet, folder)?;
     formats.spare_edited(folder)?;
-    let file = read(args, words)?;
+    let mut file = read(args, words)?;
+    file.sheet = args.cut.place(file.sheet).map_err(placed_wrongly)?;
     let bones = args.reading.bones.as_deref().map(|path| ("table of bones", path));
     let sources = [("motion", &*args.clip), ("sheet", &*args.sheet)].into_iter().chain(bones);
     for (what, path) in sources {
         formats.spare(what, path, folder, &file.cut)?;
+    }
+    let filled = args.into.fill(&file.sheet)?;
+    if let (Some(path), false) = (args.into.file(), args.formats.over().is_forced) {
+        paths::spare(&[("timesheet", Some(path))], &folder.join(paths::file_name(path)))?;
     }
     let motion = args.reading.read_for((&args.sheet, &file), &args.clip, words)?;
     let place = Folder::look(folder, args.formats.over());
@@ -70,7 +82,17 @@ pub(super) fn run(args: &DeliverArgs, words: &Words) -> Result<(), Failure> {
         made_with: file.made_with.as_ref(),
     };
     let mut bundle = Bundle::begin(folder)?;
-    let written = formats.write(&cut, &mut bundle, &|_| Ok(()))?;
+    let mut written = formats.write(&cut, &mut bundle, &|_| Ok(()))?;
+    if let Some(filled) = &filled {
+        if bundle.files().contains_key(&filled.name) {
+            return Err(Failure::AskedWrongly(format!(
+                "--to writes a {} too, over the one with your columns; leave one of the two out",
+                filled.name
+            )));
+        }
+        bundle.add(&filled.name, &filled.bytes)?;
+        written.files.push(filled.name.clone());
+    }
     let unmade = written.said.unmade();
     written.said.notes.iter().for_each(|note| words.warn(note));
     unmade.iter().for_each(|warning| words.lose(warning));
@@ -84,6 +106,9 @@ pub(super) fn run(args: &DeliverArgs, words: &Words) -> Result<(), Failure> {
             "sheet       シート     {name}: {koma} koma, {drawings}, {genga} genga"
         ));
     }
+    cut_args::lines(&file.sheet, &file.cut).iter().for_each(|line| words.say(line));
+    let notes = filled.iter().flat_map(|filled| &filled.notes);
+    notes.for_each(|note| words.say(format_args!("into        追記       {note}")));
     left.notes().iter().for_each(|note| words.say(note));
     words.say(format_args!("files       {}: {}", folder.display(), written.files.join(" ")));
     all_made(&unmade)
@@ -109,8 +134,30 @@ fn read(args: &DeliverArgs, words: &Words) -> Result<SheetFile, Failure> {
     })?;
     let file = sheet_json::read(&files::read(&path)?).map_err(files::fault_of(&path))?;
     words.say(format_args!("drawings    動画       those of {}", path.display()));
+    let unread = into_args::unread(&bytes, &args.sheet)?;
+    unread.iter().for_each(|said| words.say(format_args!("note        {said}")));
+    let names: Vec<&str> = file.sheet.layers.iter().map(|layer| &*layer.name).collect();
+    let others: Vec<&str> = timesheet
+        .columns
+        .iter()
+        .map(|column| &*column.name)
+        .filter(|name| !names.contains(name))
+        .collect();
+    if timesheet.columns.len() > 1 && !others.is_empty() {
+        words.say(format_args!(
+            "note        columns of no layer of the sheet, passed over: {}",
+            others.join(", ")
+        ));
+    }
     let sheet = xdts::retimed(&timesheet, &file.sheet).map_err(of_sheet)?;
     Ok(SheetFile { sheet, ..file })
+}
+
+fn placed_wrongly(error: Error) -> Failure {
+    match error {
+        Error::Edits { message } => Failure::AskedWrongly(message),
+        other => other.into(),
+    }
 }
 
 /// Finds the sheet.json that a timesheet was made from: beside it, or up to two folders above, as in a cut folder.

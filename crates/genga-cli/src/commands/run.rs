@@ -10,7 +10,7 @@ use crate::folder::Folder;
 use crate::format_args::{FormatArgs, FormatName, Formats, all_made, help, long_help};
 use crate::plan::{Plan, PlanArgs};
 use crate::results::{OWN, Outcome, Results};
-use crate::{camera_args, corrections, files, kept, outcomes, paths, pin_args};
+use crate::{camera_args, corrections, cut_args, files, kept, outcomes, paths, pin_args};
 use genga::edits::Edits;
 use genga::keys::Cycle;
 use genga::motion::Clip;
@@ -111,6 +111,7 @@ pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
     outcomes::of_corrections(edits, &breakdown)
         .iter()
         .for_each(|line| words.say(format_args!("correction  修正       {line}")));
+    cut_args::lines(breakdown.sheet, &name).iter().for_each(|line| words.say(line));
     shortfalls(words, &report, &breakdown);
     left.notes().iter().for_each(|note| words.say(format_args!("note        {note}")));
     words.say(format_args!("files       {}: {}", folder.display(), files.join(" ")));

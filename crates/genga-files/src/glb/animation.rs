@@ -7,7 +7,7 @@ use super::binary::{Binary, Use};
 use super::bones::floats;
 use super::{Space, Step};
 use genga::motion::{Composite, CompositeRows, Joint, local_rotation, local_translation};
-use genga::sheet::{Layer, Source};
+use genga::sheet::{Layer, Sheet, Source};
 
 /// A drawing in an animation, shown from koma `begin` until before koma `end`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -99,16 +99,19 @@ impl<'a> Poses<'a> {
         Self { composite, space, locals, joints: joints.len(), translated, rotated, steppers }
     }
 
-    /// Writes an animation of some drawings of a layer at the given rate.
+    /// Writes an animation of some drawings of a layer of a sheet.
     pub(super) fn animation(
         &self,
         name: &str,
         shown: &[Exposed],
-        (layer, koma_rate): (&Layer, f64),
+        (layer, sheet): (&Layer, &Sheet),
         step: Step,
         binary: &mut Binary,
     ) -> Value {
-        let times = step.times(shown.iter().map(|shown| (shown.begin, shown.end)), koma_rate);
+        let (koma_rate, blank, length) = (sheet.clock.koma_rate, sheet.blank, layer.length());
+        let on_film = |(begin, end)| (blank.pose_begins(begin), blank.pose_ends(end, length));
+        let holds = shown.iter().map(|shown| on_film((shown.begin, shown.end)));
+        let times = step.times(holds, koma_rate);
         let times = binary.add_bounded(Use::Data, "SCALAR", &times);
         let held = Held { times, step };
         let mut tracks = Vec::new();
@@ -123,7 +126,7 @@ impl<'a> Poses<'a> {
             let followed = [travellers, &self.steppers].concat();
             let locals = self.on_ones(&followed, shown);
             let koma = locals.len() / followed.len();
-            let times = step.times((0..koma).map(|koma| (koma, koma + 1)), koma_rate);
+            let times = step.times((0..koma).map(|koma| on_film((koma, koma + 1))), koma_rate);
             let times = binary.add_bounded(Use::Data, "SCALAR", &times);
             let held = Held { times, step };
             let koma_by_koma = |at: usize| locals[at..].iter().step_by(followed.len()).copied();
@@ -140,7 +143,7 @@ impl<'a> Poses<'a> {
             "name": name,
             "channels": tracks.iter().enumerate().map(channel).collect::<Vec<_>>(),
             "samplers": tracks.iter().map(sampler).collect::<Vec<_>>(),
-            "extras": extras(shown, layer, koma_rate),
+            "extras": extras(shown, layer, sheet),
         })
     }
 
@@ -216,13 +219,13 @@ impl Local {
 /// The drawings of an animation with their koma, in the terms of `sheet.json`: drawings count from 1. Koma and source
 /// frames count from 0, like the times of the keys. `layer` is that of the sheet, where all rounds of a loop show the same
 /// drawings.
-fn extras(shown: &[Exposed], layer: &Layer, koma_rate: f64) -> Value {
+fn extras(shown: &[Exposed], layer: &Layer, sheet: &Sheet) -> Value {
     let (genga, on_screen) = (layer.genga_numbers(), layer.koma().collect::<Vec<_>>());
     let key = |shown: &Exposed| {
         let index = on_screen[shown.shows];
         let drawing = &layer.drawings[index];
         let mut key = json!({
-            "koma": shown.begin,
+            "koma": sheet.blank.before + shown.begin,
             "length": shown.end - shown.begin,
             "drawing": index + 1,
             "role": drawing.role.word(),
@@ -240,9 +243,9 @@ fn extras(shown: &[Exposed], layer: &Layer, koma_rate: f64) -> Value {
         key
     };
     json!({
-        "fps": koma_rate,
+        "fps": sheet.clock.koma_rate,
         "frame_base": 0,
-        "koma": shown.last().map_or(0, |last| last.end),
+        "koma": shown.last().map_or(0, |last| sheet.blank.pose_ends(last.end, layer.length())),
         "layer": layer.name,
         "keys": shown.iter().map(key).collect::<Vec<_>>(),
     })

@@ -11,7 +11,7 @@ use genga::edits::Edits;
 use genga::motion::{Body, Channel, EndSite, Joint, JointId, Poser, Skeleton, bvh};
 use genga::pipeline::Engine;
 use genga::recipe::Recipe;
-use genga::sheet::{Drawing, Exposure, Role, Source};
+use genga::sheet::{Blank, Drawing, Exposure, Role, Source};
 use genga::time::{Clock, Frame, FrameRate};
 use reader::Read;
 
@@ -74,8 +74,8 @@ fn check_positions(clip: &Clip, sheet: &Sheet, glb: &Glb) {
     let read = Read::new(&glb.write(clip, sheet).unwrap());
     let size = Stature::new(clip).size * glb.space(clip).scale;
     let expected = by_limited_bvh(clip, sheet, glb);
-    assert_eq!(expected.len(), sheet.length());
-    let shown: Vec<Vec<DVec3>> = (0..sheet.length())
+    assert_eq!(expected.len(), sheet.cut_length());
+    let shown: Vec<Vec<DVec3>> = (0..sheet.cut_length())
         .map(|koma| read.positions(0, (koma as f64 + 0.5) / 24.0))
         .map(|positions| positions[..clip.skeleton().len()].to_vec())
         .collect();
@@ -119,6 +119,23 @@ fn layers_and_a_root_on_ones_stand_where_limited_bvh_has_them() {
         read.samplers(0).iter().filter(|own| own["input"] != read.samplers(0)[0]["input"]);
     let times: Vec<usize> = own_times.map(|own| read.floats(&own["input"]).len()).collect();
     assert_eq!(times, [93], "the root alone, a key a koma and one that closes");
+}
+
+#[test]
+fn the_first_pose_stands_over_the_blank_koma_before_it_and_the_last_over_those_after() {
+    for root in ["drawings", "ones"] {
+        let (clip, sheet) = made("kick", &[("root", root)]);
+        let rows = |sheet: &Sheet| by_limited_bvh(&clip, sheet, &Glb::default());
+        let (late, plain) =
+            (sheet.clone().with_blank(Blank { before: 24, after: 12 }), rows(&sheet));
+        let [first, last] = [plain[0].clone(), plain[plain.len() - 1].clone()];
+        assert_eq!(rows(&late), [vec![first; 24], plain, vec![last; 12]].concat(), "{root}");
+        check_positions(&clip, &late, &Glb::default());
+        let file = Read::new(&Glb::default().write(&clip, &late).unwrap());
+        let extras = &file.json["animations"][0]["extras"];
+        assert_eq!(extras["koma"], late.cut_length());
+        assert_eq!(extras["keys"][0]["koma"], 24);
+    }
 }
 
 #[test]

@@ -62,8 +62,9 @@ pub(crate) fn bytes(bytes: &[u8]) -> String {
     digest.text()
 }
 
-/// Digest of the layers as lines with drawings from 0, as in the first schema, the spoken lines, the exaggeration, and
-/// root and feet if they are not moved with their drawings.
+/// Digest of the layers as lines with drawings from 0, as in the first schema, the spoken lines, the exaggeration,
+/// root and feet if they are not moved with their drawings, and blank koma,
+/// camera work and slate if there are any.
 pub(super) fn sheet(sheet: &Sheet, exaggerate: &Exaggerate) -> String {
     let mut digest = Digest::new();
     for layer in &sheet.layers {
@@ -85,6 +86,19 @@ pub(super) fn sheet(sheet: &Sheet, exaggerate: &Exaggerate) -> String {
     if !sheet.lines.is_empty() {
         let text = serde_json::to_string(&sheet.lines).expect("lines are plain data");
         text.bytes().for_each(|byte| digest.word(u64::from(byte)));
+    }
+    if !sheet.blank.is_none() {
+        digest.word(3);
+        digest.word(sheet.blank.before as u64);
+        digest.word(sheet.blank.after as u64);
+    }
+    if !sheet.camera.is_empty() {
+        let text = serde_json::to_string(&sheet.camera).expect("camera work is plain data");
+        text.bytes().for_each(|byte| digest.word(u64::from(byte)));
+    }
+    if !sheet.slate.is_empty() {
+        digest.word(4);
+        sheet.slate.to_string().bytes().for_each(|byte| digest.word(u64::from(byte)));
     }
     if !exaggerate.is_off() {
         let text = serde_json::to_string(exaggerate).expect("settings are plain data");

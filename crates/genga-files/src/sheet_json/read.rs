@@ -10,7 +10,8 @@ use super::text::Text;
 use super::{MadeOf, MadeWith, SCHEMA, SCHEMA_FROM_0, SheetFile, check};
 use genga::error::Error;
 use genga::exaggerate::Exaggerate;
-use genga::sheet::{Exposure, Layer, Repeat, Sheet, SpokenLine};
+use genga::sheet::{Blank, CameraWork, Exposure, Layer, Repeat, Sheet, SpokenLine};
+use genga::slate::Slate;
 use genga::time::{Clock, Frame, FrameRate};
 
 /// The part common to all versions of the schema.
@@ -30,6 +31,8 @@ struct Written<'a> {
     genga: String,
     cut: String,
     #[serde(borrow)]
+    slate: Option<&'a RawValue>,
+    #[serde(borrow)]
     fps: &'a RawValue,
     #[serde(borrow)]
     frame_base: &'a RawValue,
@@ -46,7 +49,13 @@ struct Written<'a> {
     #[serde(borrow, rename = "loop")]
     repeat: Option<&'a RawValue>,
     #[serde(borrow)]
+    at: Option<&'a RawValue>,
+    #[serde(borrow)]
+    length: Option<&'a RawValue>,
+    #[serde(borrow)]
     lines: Option<&'a RawValue>,
+    #[serde(borrow)]
+    camera: Option<&'a RawValue>,
     #[serde(borrow)]
     layers: Vec<&'a RawValue>,
 }
@@ -91,11 +100,14 @@ pub fn read(bytes: &[u8]) -> Result<SheetFile, Error> {
     let mut length = 0;
     let layers =
         written.layers.into_iter().map(|raw| layer(text, raw, (&clip, first), &mut length));
-    let layers = layers.collect::<Result<_, _>>()?;
+    let layers: Vec<Layer> = layers.collect::<Result<_, _>>()?;
     let root = written.root.map(|raw| text.value(raw)).transpose()?.unwrap_or_default();
     let feet = written.feet.map(|raw| text.value(raw)).transpose()?.unwrap_or_default();
     let repeat = written.repeat.map(|raw| repeat(text, raw, &clip)).transpose()?;
     let lines = written.lines.map(|raw| lines(text, raw, first)).transpose()?.unwrap_or_default();
+    let camera = written.camera.map(|raw| camera(text, raw)).transpose()?.unwrap_or_default();
+    let slate = written.slate.map(|raw| slate(text, raw)).transpose()?.unwrap_or_default();
+    let blank = blank(text, (written.at, written.length), &layers)?;
     let exaggerate = match written.exaggerate {
         None => Exaggerate::default(),
         Some(raw) => exaggeration(text, raw)?,
@@ -107,7 +119,7 @@ pub fn read(bytes: &[u8]) -> Result<SheetFile, Error> {
         clip,
         exaggerate,
         made_with,
-        sheet: Sheet { clock, layers, root, feet, lines, repeat },
+        sheet: Sheet { clock, layers, root, feet, lines, repeat, camera, blank, slate },
     };
     file.check()?;
     Ok(file)
@@ -124,6 +136,46 @@ fn exaggeration(text: Text<'_>, raw: &RawValue) -> Result<Exaggerate, Error> {
     let exaggerate: Exaggerate = text.value(raw)?;
     exaggerate.validate().map_err(|error| text.error(raw, error.to_string()))?;
     Ok(exaggerate)
+}
+
+fn camera(text: Text<'_>, raw: &RawValue) -> Result<Vec<CameraWork>, Error> {
+    let written: Vec<CameraWork> = text.value(raw)?;
+    let work = |work: CameraWork| match work.begin.checked_sub(1) {
+        Some(begin) => Ok(CameraWork { begin, ..work }),
+        None => Err(text.error(raw, "camera work begins on koma 0; koma count from 1")),
+    };
+    written.into_iter().map(work).collect()
+}
+
+fn slate(text: Text<'_>, raw: &RawValue) -> Result<Slate, Error> {
+    let slate: Slate = text.value(raw)?;
+    slate.validate().map_err(|error| text.error(raw, error.to_string()))?;
+    Ok(slate)
+}
+
+/// Reads the koma on which the first drawing stands and the length of the cut, as blank koma.
+fn blank(
+    text: Text<'_>,
+    (at, length): (Option<&RawValue>, Option<&RawValue>),
+    layers: &[Layer],
+) -> Result<Blank, Error> {
+    let before = match at {
+        None => 0,
+        Some(raw) => text.value::<usize>(raw)?.checked_sub(1).ok_or_else(|| {
+            text.error(raw, "at is the koma on which the first drawing stands; koma count from 1")
+        })?,
+    };
+    let drawn = layers.iter().map(Layer::length).max().unwrap_or(0);
+    let end = before.saturating_add(drawn);
+    let after = match length {
+        None => 0,
+        Some(raw) => text.value::<usize>(raw)?.checked_sub(end).ok_or_else(|| {
+            let message =
+                format!("the drawings end on koma {end}; length is that of the cut, {end} or more");
+            text.error(raw, message)
+        })?,
+    };
+    Ok(Blank { before, after })
 }
 
 /// Checks the version, and returns the number of the first drawing and koma in it.

@@ -9,7 +9,8 @@ use super::{MadeOf, MadeWith, SCHEMA, SheetFile, digest};
 use crate::Cut;
 use genga::error::Error;
 use genga::exaggerate::Exaggerate;
-use genga::sheet::{Feet, Repeat, RootMotion, SpokenLine, is_default};
+use genga::sheet::{CameraWork, Feet, Repeat, RootMotion, SpokenLine, is_default};
+use genga::slate::Slate;
 
 /// The sheet of a cut as `sheet.json`.
 ///
@@ -25,6 +26,8 @@ struct Written<'a> {
     schema: &'static str,
     genga: &'a str,
     cut: &'a str,
+    #[serde(skip_serializing_if = "Slate::is_empty")]
+    slate: &'a Slate,
     fps: f64,
     frame_base: u8,
     clip: &'a MadeOf,
@@ -38,8 +41,14 @@ struct Written<'a> {
     feet: Feet,
     #[serde(rename = "loop", skip_serializing_if = "Option::is_none")]
     repeat: Option<Repeat>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    at: Option<usize>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    length: Option<usize>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     lines: Vec<SpokenLine>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    camera: Vec<CameraWork>,
     layers: Vec<LayerLines>,
 }
 
@@ -74,10 +83,12 @@ impl SheetFile {
     /// the clip, or an exposure of no koma or of a missing drawing.
     pub fn write(&self) -> Result<String, Error> {
         self.check()?;
+        let blank = self.sheet.blank;
         let file = Written {
             schema: SCHEMA,
             genga: &self.genga,
             cut: &self.cut,
+            slate: &self.sheet.slate,
             fps: self.sheet.clock.koma_rate,
             frame_base: 0,
             clip: &self.clip,
@@ -86,7 +97,10 @@ impl SheetFile {
             root: self.sheet.root,
             feet: self.sheet.feet,
             repeat: self.sheet.repeat,
+            at: (blank.before > 0).then_some(blank.before + 1),
+            length: (blank.after > 0).then(|| self.sheet.cut_length()),
             lines: self.sheet.lines.iter().map(from_1).collect(),
+            camera: self.sheet.camera.iter().map(work_from_1).collect(),
             layers: self.sheet.layers.iter().map(|layer| LayerLines::new(layer, 1)).collect(),
         };
         let mut bytes = Vec::new();
@@ -95,6 +109,11 @@ impl SheetFile {
         bytes.push(b'\n');
         Ok(String::from_utf8(bytes).expect("JSON is text"))
     }
+}
+
+/// Counts the koma of camera work from 1.
+fn work_from_1(work: &CameraWork) -> CameraWork {
+    CameraWork { begin: work.begin + 1, ..work.clone() }
 }
 
 /// Counts the koma of a spoken line from 1.

@@ -6,8 +6,8 @@ use serde_json::Value;
 
 use crate::xdts::tests::sheets::{cut_of_24, layer, sheet};
 use crate::xdts::{self, Tdts};
-use crate::{Cut, columns_csv, sts, time_remap};
-use genga::sheet::{Layer, Sheet};
+use crate::{Cut, Remap, columns_csv, remap_csv, sheet_csv, sts, time_remap};
+use genga::sheet::{Blank, Layer, Sheet};
 use genga::time::Clock;
 
 /// Sheets with difficult cases: a drawing shown again, one that continues over two exposures, layers of unequal length.
@@ -213,6 +213,79 @@ fn after_effects_plays_each_picture_on_its_koma() {
         let length = layer.length();
         assert_eq!(held(length, keys.lines().map(key)), douga(layer, length));
     }
+}
+
+/// The number on each koma by every timesheet that has one: 0 if it is blank.
+fn by_each_timesheet(sheet: &Sheet) -> Vec<(&'static str, Vec<usize>)> {
+    let length = sheet.cut_length();
+    let bytes = sts(sheet).unwrap();
+    let words = bytes[23..23 + 2 * length].chunks(2);
+    let sts = words.map(|pair| usize::from(u16::from_le_bytes([pair[0], pair[1]]))).collect();
+    let table = columns_csv(sheet).unwrap();
+    let mut above = 0;
+    let cell = |line: &str| {
+        let cell = line.rsplit(',').next().unwrap().trim_matches('"').to_owned();
+        above = if cell == "×" { 0 } else { cell.parse().unwrap_or(above) };
+        above
+    };
+    let columns = table.lines().skip(2).map(cell).collect();
+    let mut by_koma = vec![0; length];
+    for row in sheet_csv(sheet).unwrap().lines().skip(1) {
+        let cells: Vec<&str> = row.split(',').collect();
+        by_koma[cells[0].parse::<usize>().unwrap() - 1] = cells[2].parse().unwrap();
+    }
+    let places = remap_csv(sheet).unwrap();
+    let mut remapped = vec![0; length];
+    for row in places.lines().skip(1) {
+        let cells: Vec<&str> = row.split(',').collect();
+        let place: f64 = cells[1].parse().unwrap();
+        let is_it = |drawing: &genga::sheet::Drawing| drawing.source.place() == place;
+        let drawing = sheet.layers[0].drawings.iter().position(is_it).unwrap();
+        remapped[cells[0].parse::<usize>().unwrap() - 1] = drawing + 1;
+    }
+    vec![("sts", sts), ("columns", columns), ("csv", by_koma), ("remap", remapped)]
+}
+
+#[test]
+fn blank_koma_are_blank_in_every_timesheet() {
+    let sheet = cut_of_24();
+    for (before, after) in [(24, 12), (1, 0), (0, 1)] {
+        let late = sheet.clone().with_blank(Blank { before, after });
+        let found = by_each_timesheet(&late);
+        for ((name, whole), (_, numbers)) in found.iter().zip(by_each_timesheet(&sheet)) {
+            assert_eq!(whole, &[vec![0; before], numbers, vec![0; after]].concat(), "{name}");
+        }
+    }
+}
+
+#[test]
+fn after_effects_hides_a_column_on_blank_koma() {
+    let late = cut_of_24().with_blank(Blank { before: 24, after: 12 });
+    let mut text = String::new();
+    super::after_effects::write(&late, &mut |_, bytes| {
+        text = String::from_utf8_lossy(bytes).into_owned();
+        Ok(())
+    })
+    .unwrap();
+    assert!(text.contains("seconds\n\t24\t0\n\t30\t"), "{text}");
+    let opacity =
+        "\nTransform\tOpacity\n\tFrame\tpercent\n\t23\t0\n\t24\t100\n\t47\t100\n\t48\t0\n\nEnd";
+    assert!(text.contains(opacity), "{text}");
+}
+
+#[test]
+fn a_list_of_pictures_says_how_long_nothing_is_shown() {
+    let late = cut_of_24().with_blank(Blank { before: 24, after: 12 });
+    let list = |sheet: &Sheet| {
+        Remap::default().ffconcat(sheet, &sheet.layers[0], genga::time::Frame(99)).unwrap()
+    };
+    let said = list(&late);
+    let added = said.lines().find(|line| line.contains("tpad")).unwrap();
+    assert!(
+        added.ends_with("tpad=start_duration=1.000000:stop_duration=0.500000 adds them black"),
+        "{added}"
+    );
+    assert_eq!(said.replace(&format!("{added}\n"), ""), list(&cut_of_24()));
 }
 
 #[test]

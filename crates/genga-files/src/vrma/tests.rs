@@ -6,7 +6,7 @@ use serde_json::Value;
 use super::*;
 use crate::real;
 use genga::motion::{Body, Pose, RowWriter, bvh, local_rotation, local_translation};
-use genga::sheet::RootMotion;
+use genga::sheet::{Blank, RootMotion};
 
 /// A parsed file: its JSON document, and the floats behind each accessor.
 struct File {
@@ -150,6 +150,27 @@ fn a_repeat_has_a_root_on_ones_where_the_first_round_had_it() {
         assert!(hips(koma).abs_diff_eq(hips(koma + 12), 1e-6), "koma {koma}");
     }
     assert!(!hips(0).abs_diff_eq(hips(1), 1e-4), "it slides");
+}
+
+#[test]
+fn the_first_pose_stands_over_the_blank_koma_before_it() {
+    let bytes = std::fs::read(concat!(env!("CARGO_MANIFEST_DIR"), "/../../data/kick.bvh")).unwrap();
+    let clip = bvh::read(&bytes).unwrap().clip;
+    for root in [RootMotion::Drawings, RootMotion::Ones] {
+        let sheet = Sheet { root, ..Sheet::on_ones(clip.clock(24.0), 37) };
+        let late = sheet.clone().with_blank(Blank { before: 24, after: 12 });
+        let [plain, late] =
+            [&sheet, &late].map(|sheet| File::parse(&write(&clip, sheet, None).unwrap()));
+        let hand = |file: &File, koma: usize| {
+            let placed = file.at((koma as f64 + 0.5) / 24.0);
+            [place(&placed, "hips"), place(&placed, "leftHand")]
+        };
+        for koma in 0..73 {
+            let shown = koma.clamp(24, 60) - 24;
+            let mut apart = hand(&late, koma).into_iter().zip(hand(&plain, shown));
+            assert!(apart.all(|(a, b)| a.abs_diff_eq(b, 1e-5)), "koma {koma}");
+        }
+    }
 }
 
 #[test]

@@ -36,6 +36,9 @@ pub(super) struct Header {
     pub(super) cut: String,
     #[serde(default)]
     pub(super) scene: String,
+    /// In TDTS alone.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub(super) episode: String,
 }
 
 #[derive(Debug, Serialize, Deserialize)]

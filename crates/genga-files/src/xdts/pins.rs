@@ -30,7 +30,7 @@ pub fn marked_keys(column: &Column, numbered: Numbered) -> Vec<&Change> {
 /// koma, between `first` and `last`.
 ///
 /// # Errors
-/// [`Error::Edits`] for a key beyond the sheet's last koma: the file belongs to another clip, or to another
+/// [`Error::Edits`] for a key on a blank koma, or beyond the sheet's last: the file belongs to another clip, or to another
 /// part of it.
 pub fn pins(
     column: &Column,
@@ -39,14 +39,24 @@ pub fn pins(
     (first, last): (Frame, Frame),
 ) -> Result<Vec<Pin>, Error> {
     let pin = |change: &Change| {
-        let koma = change.koma;
+        let before = sheet.blank.before;
+        let Some(koma) = change.koma.checked_sub(before) else {
+            let (name, koma) = (&column.name, change.koma + 1);
+            return Err(Error::Edits {
+                message: format!(
+                    "column {name} has a key on koma {koma}, and the drawings enter on koma {}; is the file of the \
+                     same --at?",
+                    before + 1
+                ),
+            });
+        };
         if koma >= sheet.length() {
             let message = format!(
                 "column {} has a key on koma {}, and the sheet of this clip has {}; is the file of \
                  the same clip, and the same --trim?",
                 column.name,
-                koma + 1,
-                sheet.length()
+                change.koma + 1,
+                before + sheet.length()
             );
             return Err(Error::Edits { message });
         }

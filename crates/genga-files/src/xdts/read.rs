@@ -79,18 +79,8 @@ pub fn read_cells(bytes: &[u8]) -> Result<Exchange, Error> {
 }
 
 /// Reads the field that `field` selects for the file's signature.
-fn read_field(bytes: &[u8], field: impl Fn(&str) -> u32) -> Result<Exchange, Error> {
-    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-    let text = std::str::from_utf8(bytes).map_err(|error| {
-        let message = "expected UTF-8, which XDTS is written in; save the sheet again as XDTS";
-        let before = &bytes[..error.valid_up_to()];
-        let line = before.iter().filter(|byte| **byte == b'\n').count();
-        let column = before.iter().rev().take_while(|byte| **byte != b'\n').count();
-        wrong((line + 1, column + 1), message)
-    })?;
-    let signature = [SIGNATURE, TDTS_SIGNATURE].into_iter().find(|line| text.starts_with(line));
-    let signature = signature.ok_or_else(|| unsigned(text))?;
-    let json = &text[signature.len()..];
+pub(super) fn read_field(bytes: &[u8], field: impl Fn(&str) -> u32) -> Result<Exchange, Error> {
+    let (signature, json) = signed(bytes)?;
     let root: Root = serde_json::from_str(json).map_err(|error| {
         let on_first = if error.line() == 1 { signature.len() } else { 0 };
         let (line, column) = (error.line().max(1), (error.column() + on_first).max(1));
@@ -107,6 +97,21 @@ fn read_field(bytes: &[u8], field: impl Fn(&str) -> u32) -> Result<Exchange, Err
         wrong((1, 1), "expected a time table (timeTables), found none; save a sheet with one")
     })?;
     Ok(exchange(header, table, field(signature)))
+}
+
+/// Splits a file into its signature and the JSON after it, which is the end of the bytes.
+pub(super) fn signed(bytes: &[u8]) -> Result<(&'static str, &str), Error> {
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    let text = std::str::from_utf8(bytes).map_err(|error| {
+        let message = "expected UTF-8, which XDTS is written in; save the sheet again as XDTS";
+        let before = &bytes[..error.valid_up_to()];
+        let line = before.iter().filter(|byte| **byte == b'\n').count();
+        let column = before.iter().rev().take_while(|byte| **byte != b'\n').count();
+        wrong((line + 1, column + 1), message)
+    })?;
+    let signature = [SIGNATURE, TDTS_SIGNATURE].into_iter().find(|line| text.starts_with(line));
+    let signature = signature.ok_or_else(|| unsigned(text))?;
+    Ok((signature, &text[signature.len()..]))
 }
 
 fn unsigned(text: &str) -> Error {

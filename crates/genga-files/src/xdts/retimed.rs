@@ -3,17 +3,18 @@
 use super::column;
 use super::read::{Change, Column, Exchange, Mark};
 use genga::error::Error;
-use genga::sheet::{Exposure, Layer, Sheet};
+use genga::sheet::{Blank, Exposure, Layer, Sheet};
 
 /// Applies the timing of a timesheet whose drawings are all numbered (CELL) to a sheet. Drawings may be moved, held
-/// longer or shorter, shown twice or left out, and the sheet may change its length. Drawings keep their poses, roles
+/// longer or shorter, shown twice or left out, and the sheet may change its length. Blank koma before all drawings and
+/// after the last of a column stay blank. Drawings keep their poses, roles
 /// and reasons. The dialogue comes from the timesheet if it has any, else from the sheet. An unchanged timesheet
 /// gives the same sheet.
 ///
 /// Columns are matched to layers by name. If there is one layer and one column, their names may differ.
 ///
 /// # Errors
-/// [`Error::Sheet`] with column and koma for a number that the sheet does not have or a koma without a drawing. Also
+/// [`Error::Sheet`] with column and koma for a number that the sheet does not have or a blank koma between drawings. Also
 /// for a layer without a column, and for a timesheet of key drawings alone (ACTION).
 ///
 /// ```
@@ -39,16 +40,30 @@ pub fn retimed(timesheet: &Exchange, sheet: &Sheet) -> Result<Sheet, Error> {
              drawings (CELL), as CUT_douga_ts.xdts or CUT.tdts",
         ));
     }
-    let layers = sheet.layers.iter().enumerate();
-    let layers = layers.map(|(track, layer)| {
-        let column = column_of(timesheet, sheet, track)?;
-        let exposures = exposures(column, layer, timesheet.length)?;
+    let columns = (0..sheet.layers.len()).map(|track| column_of(timesheet, sheet, track));
+    let columns = columns.collect::<Result<Vec<_>, Error>>()?;
+    let before = columns.iter().filter_map(|column| enters(column)).min().unwrap_or(0);
+    let layers = sheet.layers.iter().zip(columns).map(|(layer, column)| {
+        let exposures = exposures(column, layer, (before, timesheet.length))?;
         Ok(Layer { exposures, ..layer.clone() })
     });
-    let layers = layers.collect::<Result<_, Error>>()?;
+    let layers = layers.collect::<Result<Vec<_>, Error>>()?;
+    let drawn = layers.iter().map(Layer::length).max().unwrap_or(0);
+    if drawn == 0 {
+        return Err(Error::sheet("the timesheet shows none of the sheet's drawings"));
+    }
+    let blank = Blank { before, after: timesheet.length - before - drawn };
     // A program without support for the S column drops it, so an empty one does not mean that the dialogue was deleted.
-    let lines = if timesheet.lines.is_empty() { &sheet.lines } else { &timesheet.lines };
-    Ok(Sheet { layers, lines: vec![], ..sheet.clone() }.with_lines(lines))
+    let retimed = Sheet { layers, ..sheet.clone() }.with_blank(blank);
+    Ok(match timesheet.lines.as_slice() {
+        [] => retimed,
+        lines => retimed.with_lines(lines),
+    })
+}
+
+/// The koma on which the first drawing of a column enters.
+fn enters(column: &Column) -> Option<usize> {
+    column.changes.iter().find(|change| change.mark != Mark::Blank).map(|change| change.koma)
 }
 
 /// Finds the column of a layer.
@@ -70,11 +85,17 @@ fn column_of<'a>(
     })
 }
 
-/// The exposures of a column, in order.
-fn exposures(column: &Column, layer: &Layer, length: usize) -> Result<Vec<Exposure>, Error> {
+/// The exposures of a column in order, from koma `before` of a timesheet of `length` koma on, to its last drawing.
+fn exposures(
+    column: &Column,
+    layer: &Layer,
+    (before, length): (usize, usize),
+) -> Result<Vec<Exposure>, Error> {
     let mut exposures: Vec<Exposure> = Vec::with_capacity(column.changes.len());
     let ends = column.changes.iter().skip(1).map(|change| change.koma).chain([length]);
-    for (change, end) in column.changes.iter().zip(ends) {
+    let shown = column.changes.iter().rposition(|change| change.mark != Mark::Blank);
+    let shown = column.changes.iter().zip(ends).take(shown.map_or(0, |last| last + 1));
+    for (change, end) in shown.filter(|(_, end)| *end > before) {
         let koma = end.saturating_sub(change.koma);
         match drawing(column, change, layer)? {
             Some(drawing) if koma > 0 => exposures.push(Exposure { drawing, koma }),
@@ -100,7 +121,8 @@ fn drawing(column: &Column, change: &Change, layer: &Layer) -> Result<Option<usi
             ))),
         },
         Mark::Blank => Err(Error::sheet(format!(
-            "{}: nothing is shown there, and a motion has a pose on every koma; hold a drawing over it",
+            "{}: nothing is shown there, between drawings of this column or before it enters with the others, and a motion \
+             has a pose on every koma; hold a drawing over it",
             place()
         ))),
         Mark::Inbetween | Mark::Reverse => Ok(None),

@@ -1,29 +1,45 @@
 //! The S column (セリフ) of a time table: speaker and words on the first koma of a line, then a continuation sign on
-//! every further koma.
+//! every further koma. The CAMERA column has only words.
 
 use super::file::{Datum, Entry, Field, Names, Track};
-use super::{BLANK, CONTINUED, SPEECH};
-use genga::sheet::SpokenLine;
+use super::{BLANK, CAMERA, CONTINUED, SPEECH};
+use genga::sheet::{CameraWork, SpokenLine};
 
 /// The dialogue field and the names of its columns; `None` if there is no dialogue.
 pub(super) fn field(lines: &[SpokenLine]) -> Option<(Field, Names)> {
+    let values = |line: &SpokenLine| vec![line.speaker.clone(), line.words.clone()];
+    side_by_side(lines, (SPEECH, "S"), values)
+}
+
+/// The field of camera work and the names of its columns; `None` if there is none.
+pub(super) fn camera_field(camera: &[CameraWork]) -> Option<(Field, Names)> {
+    let lines: Vec<SpokenLine> = camera.iter().map(CameraWork::line).collect();
+    side_by_side(&lines, (CAMERA, "CAM"), |line| vec![line.words.clone()])
+}
+
+/// A field with a track for each column of simultaneous lines, named by a word and a number.
+fn side_by_side(
+    lines: &[SpokenLine],
+    (field_id, word): (u32, &str),
+    values: impl Fn(&SpokenLine) -> Vec<String>,
+) -> Option<(Field, Names)> {
     let columns = SpokenLine::side_by_side(lines);
     let count = columns.iter().max()? + 1;
     let track = |track_no| {
         let own = lines.iter().zip(&columns).filter(|(_, column)| **column == track_no);
-        Track { frames: own.flat_map(|(line, _)| entries(line)).collect(), track_no }
+        Track { frames: own.flat_map(|(line, _)| entries(line, values(line))).collect(), track_no }
     };
-    let names = (1..=count).map(|number| format!("S{number}")).collect();
-    let field = Field { field_id: SPEECH, tracks: (0..count).map(track).collect() };
-    Some((field, Names { field_id: SPEECH, names }))
+    let names = (1..=count).map(|number| format!("{word}{number}")).collect();
+    let field = Field { field_id, tracks: (0..count).map(track).collect() };
+    Some((field, Names { field_id, names }))
 }
 
-fn entries(line: &SpokenLine) -> impl Iterator<Item = Entry> {
+fn entries(line: &SpokenLine, values: Vec<String>) -> impl Iterator<Item = Entry> {
     let entry = |koma: usize, values: Vec<String>| Entry {
         data: vec![Datum { id: 0, options: vec![], values }],
         frame: koma as i64,
     };
-    let first = entry(line.begin, vec![line.speaker.clone(), line.words.clone()]);
+    let first = entry(line.begin, values);
     let further = line.begin + 1..line.past();
     [first].into_iter().chain(further.map(move |koma| entry(koma, vec![CONTINUED.into()])))
 }

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::file::{Header, Root, TimeSheet};
-use super::write::{Column, checked, header, text, time_table};
+use super::write::{Column, checked, header, slate, text, time_table};
 use super::{CELS, TDTS_CELL, TDTS_SIGNATURE};
 use genga::error::Error;
 use genga::knob::{Knobs, knob, knobs};
@@ -54,7 +54,7 @@ impl Tdts {
     }
 
     /// Writes the sheet as one file, in which each of the two columns has a track per layer. Readers require a cut
-    /// number, so a cut without one gets its whole name instead.
+    /// number, so a cut without one gets its whole name instead, and scene 1.
     ///
     /// # Errors
     /// [`Error::Setting`] as [`Tdts::validate`]; [`Error::Sheet`] for a sheet without koma, and as
@@ -65,8 +65,14 @@ impl Tdts {
         let action = (CELS, Column::Genga { has_marks: self.marks });
         let cell = (TDTS_CELL, Column::Douga { has_circles: false });
         let time_tables = vec![time_table(sheet, cut, &[action, cell])];
-        let unnumbered = || Header { cut: cut.into(), scene: "1".into() };
-        let header = Some(header(cut).unwrap_or_else(unnumbered));
+        let slate = slate(sheet, cut);
+        let or = |field: &str, other: &str| if field.is_empty() { other } else { field }.to_owned();
+        let numbered = header(&slate).unwrap_or_else(|| Header {
+            cut: or(&slate.cut, cut),
+            scene: or(&slate.scene, "1"),
+            episode: String::new(),
+        });
+        let header = Some(Header { episode: slate.episode, ..numbered });
         let version = self.version as u32;
         let file = if self.version < IN_SHEETS {
             Root { header, subversion: None, time_tables, time_sheets: vec![], version }

@@ -1,7 +1,7 @@
 //! The two files of a sheet, and reading them back.
 
 mod examples;
-mod laws;
+pub(super) mod laws;
 mod marked;
 mod open_toonz;
 mod reading;

@@ -10,6 +10,7 @@ use super::{BLANK, CELS, CIRCLED, EXTENDED, INBETWEEN, SIGNATURE, speech};
 use genga::error::Error;
 use genga::knob::{knob, knobs};
 use genga::sheet::{Layer, Sheet, column_name};
+use genga::slate::Slate;
 
 /// Settings of a sheet as XDTS version 5.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -49,7 +50,8 @@ pub(super) enum Column {
 
 impl Xdts {
     /// Writes the sheet as two files, with one track per layer in the sheet's order, from back to front. The header
-    /// gets only the digits of `cut`, because it has no room for more; the time table has the whole name.
+    /// has the numbers of cut and scene if both are known, from the sheet's slate or else from the name `cut`; the time
+    /// table has the whole name. Blank koma are null cells.
     ///
     /// # Errors
     /// [`Error::Sheet`] for a sheet without koma, and as [`Sheet::check`].
@@ -67,7 +69,7 @@ impl Xdts {
     fn file(&self, sheet: &Sheet, cut: &str, column: Column) -> Root {
         let extended = column == Column::Douga { has_circles: true };
         Root {
-            header: header(cut),
+            header: header(&slate(sheet, cut)),
             subversion: extended.then(|| EXTENDED.into()),
             time_tables: vec![time_table(sheet, cut, &[(CELS, column)])],
             time_sheets: vec![],
@@ -82,26 +84,36 @@ pub(super) fn time_table(sheet: &Sheet, cut: &str, columns: &[(u32, Column)]) ->
     let names: Vec<String> = names.collect();
     let field = |&(field_id, column): &(u32, Column)| {
         let tracks = sheet.layers.iter().enumerate();
-        let tracks =
-            tracks.map(|(track_no, layer)| Track { frames: entries(layer, column), track_no });
+        let tracks = tracks
+            .map(|(track_no, layer)| Track { frames: entries(sheet, layer, column), track_no });
         Field { field_id, tracks: tracks.collect() }
     };
     let named = |&(field_id, _): &(u32, Column)| Names { field_id, names: names.clone() };
     let (spoken, spoken_names) = speech::field(&sheet.lines).unzip();
+    let (camera, camera_names) = speech::camera_field(&sheet.camera).unzip();
     TimeTable {
-        duration: sheet.length() as u64,
-        fields: columns.iter().map(field).chain(spoken).collect(),
+        duration: sheet.cut_length() as u64,
+        fields: columns.iter().map(field).chain(spoken).chain(camera).collect(),
         name: cut.into(),
-        time_table_headers: columns.iter().map(named).chain(spoken_names).collect(),
+        time_table_headers: columns
+            .iter()
+            .map(named)
+            .chain(spoken_names)
+            .chain(camera_names)
+            .collect(),
     }
 }
 
-/// The changes of a layer as entries, closed by a blank after its last koma.
-fn entries(layer: &Layer, column: Column) -> Vec<Entry> {
+/// The changes of a layer as entries: a blank before its first koma, if it enters late, and one after its last.
+pub(super) fn entries(sheet: &Sheet, layer: &Layer, column: Column) -> Vec<Entry> {
     let genga = layer.genga_numbers();
+    let before = sheet.blank.before;
     let mut entries = Vec::new();
+    if before > 0 {
+        entries.push(entry(0, BLANK.into(), false));
+    }
     for (koma, drawing) in layer.changes() {
-        let key = genga[drawing];
+        let (koma, key) = (before + koma, genga[drawing]);
         match (column, key) {
             (Column::Genga { .. }, Some(number)) => {
                 entries.push(entry(koma, number.to_string(), false));
@@ -116,7 +128,7 @@ fn entries(layer: &Layer, column: Column) -> Vec<Entry> {
             }
         }
     }
-    entries.push(entry(layer.length(), BLANK.into(), false));
+    entries.push(entry(before + layer.length(), BLANK.into(), false));
     entries
 }
 
@@ -147,38 +159,15 @@ pub(crate) fn name(track: usize, name: &str) -> String {
     }
 }
 
-/// Extracts the numbers of cut and scene, with 1 to 4 digits as the format requires. `None` if the name has no such
-/// number, because no number is better than a wrong one.
-///
-/// The cut is the number after a `c`, or else the first one. The scene is the number after an `s`, or else 1.
-pub(super) fn header(cut: &str) -> Option<Header> {
-    let numbers = numbers(cut);
-    let after = |letter: char| numbers.iter().find(|(before, _)| *before == Some(letter));
-    let scene = after('s');
-    let first = numbers.iter().find(|number| Some(*number) != scene);
-    let cut = after('c').or(first)?.1.clone();
-    Some(Header { cut, scene: scene.map_or("1".into(), |scene| scene.1.clone()) })
+/// The slate of a sheet, completed from the name of its cut.
+pub(super) fn slate(sheet: &Sheet, cut: &str) -> Slate {
+    sheet.slate.clone().over(Slate::from_name(cut))
 }
 
-/// All runs of at most four digits, without leading zeros. Each comes with the character before it in lower case,
-/// unless a further letter precedes that.
-fn numbers(text: &str) -> Vec<(Option<char>, String)> {
-    let letters: Vec<char> = text.chars().collect();
-    let mut found = Vec::new();
-    let mut at = 0;
-    while at < letters.len() {
-        let run = letters[at..].iter().take_while(|letter| letter.is_ascii_digit()).count();
-        if (1..=4).contains(&run) {
-            let digits: String = letters[at..at + run].iter().collect();
-            let number = digits.trim_start_matches('0');
-            let number = if number.is_empty() { "0" } else { number };
-            let alone = at < 2 || !letters[at - 2].is_alphabetic();
-            let before = at.checked_sub(1).map(|before| letters[before].to_ascii_lowercase());
-            found.push((before.filter(|_| alone), number.into()));
-        }
-        at += run.max(1);
-    }
-    found
+/// The numbers of cut and scene, with 1 to 4 digits as the format requires. `None` unless both are known: no number is
+/// better than a wrong one.
+pub(super) fn header(slate: &Slate) -> Option<Header> {
+    slate.numbers().map(|(cut, scene)| Header { cut, scene, episode: String::new() })
 }
 
 pub(super) fn text(signature: &str, file: &Root) -> Result<String, Error> {

@@ -53,7 +53,7 @@ impl Preview {
         self.each(cut, (clip, sheet), usize::MAX, |_, pixels| show(pixels.bytes()))
     }
 
-    /// Passes the picture of each koma, `most` at most, to `show`, and returns their number.
+    /// Passes the picture of each koma of the cut, `most` at most, to `show`, and returns their number.
     fn each(
         &self,
         cut: &str,
@@ -67,11 +67,14 @@ impl Preview {
         let (clip, sheet) = (&*clip, &*sheet);
         let composite = composed(clip, sheet)?;
         let layer = composite.layer();
-        let koma = layer.length().min(most);
+        let (before, shown) = (sheet.blank.before, layer.koma().collect::<Vec<_>>());
+        let koma = (before + shown.len() + sheet.blank.after).min(most);
         let figure = Figure::new(clip, self.body);
         let mut scene = Scene::new(self, cut, (&composite, &figure), sheet, koma)?;
-        for (at, drawing) in layer.koma().take(koma).enumerate() {
-            show(at, scene.draw(at, drawing, named[at] + 1))?;
+        for at in 0..koma {
+            let drawing =
+                at.checked_sub(before).and_then(|at| Some((*shown.get(at)?, named[at] + 1)));
+            show(at, scene.draw(at, drawing))?;
         }
         Ok(koma)
     }

@@ -42,6 +42,8 @@ pub(super) struct Scene<'a> {
     plain: Digits,
     size: (f64, f64),
     koma: usize,
+    /// Blank koma before the first drawing.
+    before: usize,
 }
 
 impl<'a> Scene<'a> {
@@ -57,7 +59,8 @@ impl<'a> Scene<'a> {
         let (stage, follows) = stage(preview, composite, figure, size);
         let at = |panel: f64| (size.0 * (0.25 + 0.5 * panel), size.1 - BOTTOM);
         let stages = [0.0, 1.0].map(|panel| Stage { at: at(panel), ..stage.clone() });
-        let cells = shown_drawings(layer);
+        let mut cells = shown_drawings(layer);
+        cells.iter_mut().for_each(|cell| cell.koma += sheet.blank.before);
         let backdrop = Pixels::from_svg(&backdrop(cut, sheet, layer, &cells, koma, size, follows))?;
         Ok(Self {
             posing: Posing::new(clip, figure.marks()),
@@ -73,19 +76,17 @@ impl<'a> Scene<'a> {
             plain: Digits::new(style::TITLE, style::INBETWEEN),
             size,
             koma,
+            before: sheet.blank.before,
         })
     }
 
-    /// Draws a koma on which a drawing is shown, with its number.
-    pub(super) fn draw(&mut self, koma: usize, drawing: usize, number: usize) -> &Pixels {
+    /// Draws a koma of the cut on which a drawing is shown, with its number, or none.
+    pub(super) fn draw(&mut self, koma: usize, drawing: Option<(usize, usize)>) -> &Pixels {
         self.pixels.copy(&self.backdrop);
-        let source = Source::At(self.clock.place_from_koma(koma));
-        let poses = [self.posing.points(source), self.showing.points(drawing, koma)];
-        poses.iter().enumerate().for_each(|(panel, pose)| self.figure(panel, pose));
-        let (width, height) = self.size;
-        let is_kept = self.layer.drawings[drawing].role.is_kept();
-        let digits = if is_kept { &self.genga } else { &self.plain };
-        digits.write(&mut self.pixels, number, (width - PAD, 28.0));
+        if let Some(drawing) = drawing {
+            self.drawing(koma - self.before, drawing);
+        }
+        let height = self.size.1;
         self.small.write(&mut self.pixels, koma + 1, (PAD + 68.0, height - 10.0));
         let bar = bar_width(self.size, self.koma);
         let x = PAD + bar * (koma as f64 + 0.5);
@@ -93,6 +94,16 @@ impl<'a> Scene<'a> {
         let head = (x - 1.0, height - up - 4.0);
         self.pixels.rect(head, (2.0, high + 8.0), style::INK);
         &self.pixels
+    }
+
+    /// Draws the figures of a koma of the sheet, and the number under which its drawing is known.
+    fn drawing(&mut self, koma: usize, (drawing, number): (usize, usize)) {
+        let source = Source::At(self.clock.place_from_koma(koma));
+        let poses = [self.posing.points(source), self.showing.points(drawing, koma)];
+        poses.iter().enumerate().for_each(|(panel, pose)| self.figure(panel, pose));
+        let is_kept = self.layer.drawings[drawing].role.is_kept();
+        let digits = if is_kept { &self.genga } else { &self.plain };
+        digits.write(&mut self.pixels, number, (self.size.0 - PAD, 28.0));
     }
 
     fn figure(&mut self, panel: usize, pose: &[DVec3]) {
@@ -185,10 +196,10 @@ fn backdrop(
     bars(&mut canvas, cells, koma, size);
     let base = height - 10.0;
     canvas.text("koma", (PAD, base), Type::new(style::WORDS).color(style::FAINT));
-    let length = seconds_and_koma(layer.length(), sheet.clock.koma_rate);
-    let more =
-        if koma < layer.length() { format!(", the first {koma} shown") } else { String::new() };
-    let of = format!("of {} (尺 {length}){more}", layer.length());
+    let whole = sheet.blank.before + layer.length() + sheet.blank.after;
+    let length = seconds_and_koma(whole, sheet.clock.koma_rate);
+    let more = if koma < whole { format!(", the first {koma} shown") } else { String::new() };
+    let of = format!("of {whole} (尺 {length}){more}");
     let faint = Type::new(style::WORDS).color(style::FAINT);
     canvas.text(&of, (PAD + 76.0, base), faint);
     let left = PAD + 90.0 + style::text_width(&of, style::WORDS);

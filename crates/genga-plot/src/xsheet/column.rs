@@ -57,7 +57,7 @@ pub(super) fn cell(
 
 type Write<'a> = dyn Fn(&mut Canvas, Exposure, Point) + 'a;
 
-/// Draws each exposure by its mark and hold line, and the empty koma after the last.
+/// Draws each exposure by its mark and hold line, and the empty koma before the first and after the last.
 fn column(
     canvas: &mut Canvas,
     page: &Page<'_>,
@@ -85,10 +85,13 @@ fn column(
             held(canvas, half, x, begin, end);
         }
     }
+    let before = page.sheet.blank.before;
+    let past = before + leaf.layer.length();
     if let Some(begin) = leaf.repeat {
-        repeated(canvas, half, x, begin + 1..leaf.layer.length());
+        repeated(canvas, half, x, begin + 1..past);
     }
-    empty(canvas, page, half, place, leaf.layer.length());
+    empty(canvas, half, place, (0, before));
+    empty(canvas, half, place, (past, page.sheet.cut_length()));
 }
 
 /// Writes リピート down the koma of a repeat, and draws its arrow to the last of them.
@@ -126,13 +129,13 @@ fn held(canvas: &mut Canvas, half: Half, x: f64, begin: usize, end: usize) {
     }
 }
 
-/// Draws × (カラ) at the end of a layer that is shorter than the sheet, and a wave down to the sheet's end.
-fn empty(canvas: &mut Canvas, page: &Page<'_>, half: Half, place: Place, begin: usize) {
+/// Draws × (カラ) on the first of some empty koma, and a wave down to the last.
+fn empty(canvas: &mut Canvas, half: Half, place: Place, (begin, end): (usize, usize)) {
     let x = place.middle();
-    if page.has(begin) && half.shows(begin) {
+    if begin < end && half.shows(begin) {
         canvas.cross((x, half.y(begin) + 0.5 * ROW), 4.5, style::INK, 1.4);
     }
-    let (from, to) = ((begin + 1).max(half.begin), page.sheet.length().min(half.end()));
+    let (from, to) = ((begin + 1).max(half.begin), end.min(half.end()));
     if from >= to {
         return;
     }

@@ -11,6 +11,7 @@ use crate::xsheet::paper_layer::Leaf;
 use crate::xsheet::spread::Spread;
 use genga::motion::Clip;
 use genga::sheet::Sheet;
+use genga::slate::Slate;
 use genga::timing::{Gauge, fraction};
 
 const TOP: f64 = 118.0;
@@ -28,7 +29,7 @@ const OVER: f64 = 11.0;
 /// is no page.
 pub(super) fn draw(
     settings: &XSheet,
-    cut: &str,
+    (cut, slate): (&str, &Slate),
     clip: &Clip,
     sheet: &Sheet,
     leaves: &[Leaf<'_>],
@@ -38,7 +39,7 @@ pub(super) fn draw(
     let of = all.len().div_ceil(2 * ROWS);
     let page = |(at, gauges): (usize, &[(&Leaf<'_>, &Gauge)])| {
         let number = at + 1;
-        let page = Page { settings, cut, sheet, leaves, begin: 0, number, of };
+        let page = Page { settings, cut, slate, sheet, leaves, begin: 0, number, of };
         let mut canvas = Canvas::new(SIZE);
         boxes(&mut canvas, &page, &format!("ツメ {number} / {of}"));
         title(&mut canvas);

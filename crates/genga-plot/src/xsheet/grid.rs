@@ -87,7 +87,7 @@ fn numbers(canvas: &mut Canvas, page: &Page<'_>, half: Half) {
 
 /// Draws a heavy line under the last koma, and slashes below it.
 pub(super) fn end(canvas: &mut Canvas, page: &Page<'_>, half: Half) {
-    let length = page.sheet.length();
+    let length = page.sheet.cut_length();
     if length == 0 || !half.shows(length - 1) {
         return;
     }

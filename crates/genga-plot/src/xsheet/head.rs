@@ -27,15 +27,25 @@ pub(super) fn draw(canvas: &mut Canvas, page: &Page<'_>) {
 
 /// Draws the boxes along the upper edge.
 pub(super) fn boxes(canvas: &mut Canvas, page: &Page<'_>, sheet: &str) {
-    let settings = page.settings;
-    let time = seconds_and_koma(page.sheet.length(), page.sheet.clock.koma_rate);
+    let slate = page.slate;
+    let time = seconds_and_koma(page.sheet.cut_length(), page.sheet.clock.koma_rate);
+    let cut = match (slate.cut.as_str(), slate.take.as_str()) {
+        ("", _) => page.cut.to_owned(),
+        (cut, "") => cut.to_owned(),
+        (cut, take) => format!("{cut}  take {take}"),
+    };
+    // Beside a number, the name of the cut's files stands small.
+    let label = match cut == page.cut {
+        true => "カット cut".to_owned(),
+        false => style::fitted(&format!("カット cut  {}", page.cut), 9.5, 262.0),
+    };
     let boxes = [
-        (222.0, "作品 title", settings.title.as_str(), 15.0),
-        (66.0, "話数 episode", &settings.episode, 15.0),
-        (66.0, "シーン scene", &settings.scene, 15.0),
-        (270.0, "カット cut", page.cut, 19.0),
+        (222.0, "作品 title", slate.title.as_str(), 15.0),
+        (66.0, "話数 episode", &slate.episode, 15.0),
+        (66.0, "シーン scene", &slate.scene, 15.0),
+        (270.0, &label, &cut, 19.0),
         (108.0, "尺 length s+k", &time, 21.0),
-        (142.0, "原画 key animator", &settings.animator, 15.0),
+        (142.0, "原画 key animator", &slate.animator, 15.0),
         (110.0, "シート sheet", sheet, 17.0),
     ];
     let mut left = WIDTH.0;
@@ -71,7 +81,7 @@ fn counts(leaves: &[Leaf<'_>], sheet: &Sheet) -> Vec<String> {
     if lines.len() < 2 {
         lines.push(format!(
             "{} koma at {} a second  ·  koma count from 1 and run on from page to page",
-            sheet.length(),
+            sheet.cut_length(),
             sheet.clock.koma_rate
         ));
     }

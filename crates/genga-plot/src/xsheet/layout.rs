@@ -4,6 +4,7 @@ use crate::xsheet::XSheet;
 use crate::xsheet::half_page::{Half, Place, ROWS};
 use crate::xsheet::paper_layer::Leaf;
 use genga::sheet::Sheet;
+use genga::slate::Slate;
 
 /// Width and height of a page in px. The shape is a little wider than A4 and B4 are inside their margins, so
 /// that a page as wide as the paper is never too high for it.
@@ -25,6 +26,7 @@ const SPEECH: f64 = 38.0;
 pub(super) struct Page<'a> {
     pub(super) settings: &'a XSheet,
     pub(super) cut: &'a str,
+    pub(super) slate: &'a Slate,
     pub(super) sheet: &'a Sheet,
     pub(super) leaves: &'a [Leaf<'a>],
     /// First koma of the page.
@@ -36,11 +38,11 @@ pub(super) struct Page<'a> {
 impl<'a> Page<'a> {
     pub(super) fn all(
         settings: &'a XSheet,
-        cut: &'a str,
+        (cut, slate): (&'a str, &'a Slate),
         sheet: &'a Sheet,
         leaves: &'a [Leaf<'a>],
     ) -> Vec<Self> {
-        let in_time = sheet.length().div_ceil(2 * ROWS).max(1);
+        let in_time = sheet.cut_length().div_ceil(2 * ROWS).max(1);
         let groups: Vec<&[Leaf<'_>]> =
             if leaves.is_empty() { vec![&[]] } else { leaves.chunks(LAYERS).collect() };
         let of = in_time * groups.len();
@@ -48,6 +50,7 @@ impl<'a> Page<'a> {
             move |time: usize| Self {
                 settings,
                 cut,
+                slate,
                 sheet,
                 leaves,
                 begin: time * 2 * ROWS,
@@ -82,6 +85,12 @@ impl<'a> Page<'a> {
         Place { left: half.left + NUMBERS + STRIP + BLOCK, width: SPEECH }
     }
 
+    /// Returns the CAMERA column.
+    pub(super) fn camera(&self, half: Half) -> Place {
+        let left = half.left + NUMBERS + STRIP + BLOCK + SPEECH + BLOCK;
+        Place { left, width: half.left + HALF - left }
+    }
+
     fn place(&self, left: f64, at: usize) -> Place {
         let width = BLOCK / self.columns() as f64;
         Place { left: left + width * at as f64, width }
@@ -103,11 +112,6 @@ impl<'a> Page<'a> {
             (next(0.0), "CAMERA", "カメラ"),
         ];
         (blocks, half.left + HALF)
-    }
-
-    /// Whether a koma is on the sheet.
-    pub(super) fn has(&self, koma: usize) -> bool {
-        koma < self.sheet.length()
     }
 
     /// Returns the number of koma in a second, at least 1.

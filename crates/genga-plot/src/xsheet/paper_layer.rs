@@ -19,13 +19,20 @@ pub(super) struct Leaf<'a> {
 }
 
 impl<'a> Leaf<'a> {
-    /// `repeat` is the koma on which the second round of a loop begins. Gauges of later rounds are left out.
-    pub(super) fn new(layer: &'a Layer, gauges: &'a [Gauge], repeat: Option<usize>) -> Self {
-        let begins: Vec<usize> = layer.timed().map(|(begin, _)| begin).collect();
+    /// Prepares a layer whose first drawing enters after `before` blank koma. `repeat` is the koma of the layer on which
+    /// the second round of a loop begins. Gauges of later rounds are left out.
+    pub(super) fn new(
+        layer: &'a Layer,
+        gauges: &'a [Gauge],
+        before: usize,
+        repeat: Option<usize>,
+    ) -> Self {
+        let repeat = repeat.map(|repeat| before + repeat);
+        let begins: Vec<usize> = layer.timed().map(|(begin, _)| before + begin).collect();
         let is_written = |begin: usize| repeat.is_none_or(|repeat| begin < repeat);
-        let written = layer.timed().filter(|(begin, _)| is_written(*begin));
+        let written = layer.timed().filter(|(begin, _)| is_written(before + begin));
         let last = written.max_by_key(|(_, shown)| shown.drawing);
-        let end = last.map(|(begin, _)| begin);
+        let end = last.map(|(begin, _)| before + begin);
         let own = gauges.partition_point(|gauge| is_written(begins[gauge.first]));
         Self { layer, gauges: &gauges[..own], genga: layer.genga_numbers(), begins, end, repeat }
     }

@@ -1,11 +1,11 @@
-//! Draws the S column (セリフ): a bracket down the koma of a line, and beside it, from top to bottom, the
-//! speaker and the words.
+//! Draws the S column (セリフ) and the CAMERA column: a bracket down the koma of a line, and beside it, from top to
+//! bottom, the speaker and the words.
 
 use crate::canvas::{Canvas, Type};
 use crate::style;
 use crate::xsheet::half_page::{Half, Place};
 use crate::xsheet::layout::Page;
-use genga::sheet::SpokenLine;
+use genga::sheet::{CameraWork, SpokenLine};
 
 /// Font sizes to try, in this order, until the line fits.
 const SIZES: [f64; 5] = [12.0, 11.0, 10.0, 9.0, 8.0];
@@ -14,12 +14,16 @@ const HOOK: f64 = 4.0;
 /// White between the edge of the column and the bracket, in px.
 const EDGE: f64 = 3.5;
 
-/// Draws the lines heard in a half. Lines heard at once share the column.
+/// Draws the lines heard in a half, and the camera work. Lines heard at once share the column.
 pub(super) fn draw(canvas: &mut Canvas, page: &Page<'_>, half: Half) {
-    let lines = &page.sheet.lines;
+    side_by_side(canvas, &page.sheet.lines, half, page.speech(half));
+    let camera: Vec<SpokenLine> = page.sheet.camera.iter().map(CameraWork::line).collect();
+    side_by_side(canvas, &camera, half, page.camera(half));
+}
+
+fn side_by_side(canvas: &mut Canvas, lines: &[SpokenLine], half: Half, whole: Place) {
     let columns = SpokenLine::side_by_side(lines);
     let count = columns.iter().max().map_or(1, |last| last + 1);
-    let whole = page.speech(half);
     let width = whole.width / count as f64;
     for (line, column) in lines.iter().zip(columns) {
         if line.begin < half.end() && line.past() > half.begin {

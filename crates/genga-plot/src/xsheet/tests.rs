@@ -2,7 +2,7 @@
 
 use super::*;
 use genga::motion::bvh;
-use genga::sheet::{Drawing, Exposure, Layer, Role, Source, SpokenLine, Why};
+use genga::sheet::{Blank, CameraWork, Drawing, Exposure, Layer, Role, Source, SpokenLine, Why};
 
 fn clip() -> Clip {
     let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/kick.bvh");
@@ -86,6 +86,60 @@ fn every_inbetween_has_a_fraction_beside_action_and_among_the_gauges() {
         let fractions = pages.iter().map(|page| words(page).iter().filter(is_fraction).count());
         assert_eq!(fractions.collect::<Vec<_>>(), [count; 2]);
     }
+}
+
+#[test]
+fn a_cut_that_is_entered_late_is_blank_before_and_has_its_koma_behind() {
+    let draw = |blank| {
+        let sheet = sheet(vec![layer("A", &CUT)]).with_blank(blank);
+        XSheet { gauges: false, ..XSheet::default() }.draw("kick", &clip(), &sheet).unwrap()
+    };
+    let (plain, late) = (draw(Blank::default()), draw(Blank { before: 24, after: 12 }));
+    // Numbers, marks and lines of the columns come 24 rows lower.
+    let circles = |page: &str| -> Vec<f64> {
+        let y = |line: &str| line.split(" cy=\"").nth(1)?.split('"').next()?.parse().ok();
+        let all = page.lines().filter(|line| line.starts_with("<circle")).filter_map(y);
+        all.filter(|y: &f64| *y < half_page::TOP + 72.0 * half_page::ROW).collect()
+    };
+    let lower: Vec<f64> = circles(&plain[0]).iter().map(|y| y + 24.0 * half_page::ROW).collect();
+    assert!(!lower.is_empty());
+    let off = |(a, b): (&f64, &f64)| (a - b).abs();
+    assert_eq!(circles(&late[0]).len(), lower.len());
+    assert!(circles(&late[0]).iter().zip(&lower).map(off).all(|off| off < 1e-3));
+    let words = |pages: &[String]| words(&pages[0]);
+    assert!(words(&plain).contains(&"1+0".into()) && words(&late).contains(&"2+12".into()));
+    // A cross at both ends of both columns, and one in the legend: two lines each.
+    let crosses = |page: &str| page.matches("stroke-width=\"1.4\"").count();
+    assert_eq!((crosses(&plain[0]), crosses(&late[0])), (2, 2 + 2 * 2 * 2));
+}
+
+#[test]
+fn camera_work_stands_in_the_camera_column() {
+    let work = |begin, koma, words: &str| CameraWork { begin, koma, words: words.into() };
+    let camera = vec![work(2, 12, "PAN"), work(80, 20, "T.U")];
+    let sheet = Sheet { camera, ..sheet(vec![layer("A", &[('e', 144)])]) };
+    let page = XSheet::default().draw("kick", &clip(), &sheet).unwrap().remove(0);
+    for (words, half) in [("PAN", 0), ("T.U", 1)] {
+        let line = page.lines().find(|line| line.contains(&format!(">{words}<"))).unwrap();
+        let x = line.split(" x=\"").nth(1).unwrap().split('"').next().unwrap();
+        let x = x.parse::<f64>().unwrap();
+        let right = [490.0, 992.0][half];
+        assert!(x > right - 60.0 && x < right, "{words}: {line}");
+    }
+}
+
+#[test]
+fn the_head_has_the_slate_and_settings_go_over_it() {
+    let slate = Slate { animator: "アキ".into(), cut: "46".into(), ..Slate::default() };
+    let sheet = Sheet { slate, ..sheet(vec![layer("A", &CUT)]) };
+    let head =
+        |settings: &XSheet| words(&settings.draw("ep03_s12_c045", &clip(), &sheet).unwrap()[0]);
+    let said = head(&XSheet::default());
+    for word in ["アキ", "46", "03", "12", "カット cut  ep03_s12_c045"] {
+        assert!(said.contains(&word.to_owned()), "{word}: {said:?}");
+    }
+    let said = head(&XSheet { scene: "7".into(), ..XSheet::default() });
+    assert!(said.contains(&"7".into()) && !said.contains(&"12".into()));
 }
 
 #[test]
@@ -200,7 +254,7 @@ fn a_half_has_the_exposures_and_gauges_that_a_look_at_all_finds() {
                 shares: vec![0.5; 5],
             })
             .collect();
-        let leaf = Leaf::new(&layer, &gauges);
+        let leaf = Leaf::new(&layer, &gauges, 0);
         let highest = layer.exposures.iter().map(|shown| shown.drawing).max();
         let end = layer.timed().filter(|(_, shown)| Some(shown.drawing) == highest).last();
         assert_eq!(leaf.end, end.map(|(begin, _)| begin));

@@ -3,9 +3,12 @@
 use proptest::prelude::*;
 
 use super::*;
-use genga::edits::{Edits, Forbidden, Hold, LayerEdits, Move, Pin, Speech};
+use genga::edits::{CameraCue, Edits, Forbidden, Hold, LayerEdits, Move, Pin, Speech};
 use genga::exaggerate::{CartoonParts, Exaggerate};
-use genga::sheet::{Drawing, Exposure, Feet, Layer, Reason, RootMotion, Sheet, SpokenLine, Why};
+use genga::sheet::{
+    Blank, Drawing, Exposure, Feet, Layer, Reason, RootMotion, Sheet, SpokenLine, Why,
+};
+use genga::slate::Slate;
 use genga::time::{Clock, Frame, FrameRate, Span};
 
 const FIRST: usize = 7;
@@ -110,6 +113,10 @@ fn made_with() -> impl Strategy<Value = MadeWith> {
                 frozen,
                 splits,
                 speech,
+                camera: vec![CameraCue { frames: [Frame(3), Frame(9)], text: "PAN".into() }],
+                at: Some(1 + digest.len()),
+                length: None,
+                slate: Slate::from_name("s1_c2"),
                 layers,
             };
             MadeWith { recipe, layers: digest, edits }
@@ -153,11 +160,13 @@ fn sheet_file() -> impl Strategy<Value = SheetFile> {
     let words = prop::array::uniform2(any::<String>());
     let root = prop::sample::select(vec![RootMotion::Drawings, RootMotion::Ones]);
     let feet = prop::sample::select(vec![Feet::Free, Feet::Held]);
-    let root = (root, exaggerate(), spoken());
+    let blank = (0..30_usize, 0..30_usize).prop_map(|(before, after)| Blank { before, after });
+    let slate = "[a-zア 0-9]{0,5}".prop_map(|cut| Slate { cut, ..Slate::default() });
+    let root = (root, exaggerate(), spoken(), blank, slate);
     (rates, (layers, root, feet), joints, words, prop::option::of(made_with())).prop_map(
         |(
             (frame_rate, koma_rate),
-            (layers, (root, exaggerate, lines), feet),
+            (layers, (root, exaggerate, lines, blank, slate), feet),
             joints,
             [cut, file],
             made_with,
@@ -177,6 +186,9 @@ fn sheet_file() -> impl Strategy<Value = SheetFile> {
                     root,
                     feet,
                     lines: vec![],
+                    camera: vec![],
+                    blank,
+                    slate,
                 }
                 .with_lines(&lines),
                 clip: MadeOf {

@@ -163,3 +163,40 @@ fn words_of_the_file_are_told_whole() {
     let error = read(text.as_bytes()).unwrap_err();
     assert!(std::error::Error::source(&error).is_some(), "{error}");
 }
+
+#[test]
+fn blank_koma_are_said_as_the_koma_of_the_first_drawing_and_the_length_of_the_cut() {
+    let placed = |words: &str| {
+        let text = text().replacen("  \"layers\": [", &format!("  {words},\n  \"layers\": ["), 1);
+        read(text.as_bytes())
+    };
+    let length = file().sheet.length();
+    let sheet = placed(&format!("\"at\": 25, \"length\": {}", 24 + length + 6)).unwrap().sheet;
+    assert_eq!((sheet.blank.before, sheet.blank.after), (24, 6));
+    assert_eq!(placed("\"at\": 25").unwrap().sheet.cut_length(), 24 + length);
+    for (words, said) in [
+        ("\"at\": 0", "koma count from 1"),
+        ("\"length\": 1", "the drawings end on koma"),
+        ("\"at\": 99999999", "blank koma"),
+        ("\"slate\": {\"cut\": \"a\\nb\"}", "the slate's cut has a line break"),
+        ("\"slate\": {\"shot\": \"a\"}", "unknown field `shot`"),
+    ] {
+        let error = placed(words).unwrap_err().to_string();
+        assert!(error.contains(said), "{words}: {error}");
+    }
+}
+
+#[test]
+fn a_sheet_whose_blank_koma_or_slate_were_changed_is_not_as_made() {
+    let mut file = file();
+    let exaggerate = file.exaggerate.clone();
+    let digest = super::digest::sheet(&file.sheet, &exaggerate);
+    let layers = digest.clone();
+    file.made_with = Some(MadeWith { layers, ..file.made_with.unwrap_or_default() });
+    assert!(file.is_as_made());
+    file.sheet.blank.before = 24;
+    assert!(!file.is_as_made());
+    file.sheet.blank.before = 0;
+    file.sheet.slate.cut = "45".into();
+    assert!(!file.is_as_made());
+}

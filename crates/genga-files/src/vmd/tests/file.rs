@@ -12,7 +12,7 @@ use genga::edits::Edits;
 use genga::motion::body::names::bones::{LONGEST_NAME, Model, cp932};
 use genga::pipeline::Engine;
 use genga::recipe::Recipe;
-use genga::sheet::{Exposure, Feet, RootMotion, Sheet};
+use genga::sheet::{Blank, Exposure, Feet, RootMotion, Sheet};
 use genga::time::KOMA_RATE;
 
 /// The clip's motion by the default recipe, with its sheet.
@@ -146,6 +146,48 @@ fn a_root_on_ones_is_the_centre_on_every_koma_and_nothing_else() {
     let mut places: Vec<[f32; 3]> = center.map(|key| key.translation).collect();
     places.dedup();
     assert!(places.len() > sheet.layers[0].exposures.len(), "it goes on in holds");
+}
+
+#[test]
+fn the_first_pose_stands_over_the_blank_koma_before_it_and_the_last_over_those_after() {
+    let (sheet, _) = limited(kick());
+    for (root, feet) in [
+        (RootMotion::Drawings, Feet::Free),
+        (RootMotion::Ones, Feet::Free),
+        (RootMotion::Ones, Feet::Held),
+    ] {
+        let sheet = Sheet { root, feet, ..sheet.clone() };
+        // 24 koma are 30 frames.
+        let late = sheet.clone().with_blank(Blank { before: 24, after: 24 });
+        let [plain, late] =
+            [&sheet, &late].map(|sheet| Vmd::default().make(&kick(), sheet).unwrap().motion.keys);
+        let bones: std::collections::BTreeSet<&str> = plain.iter().map(|key| &*key.bone).collect();
+        for bone in bones {
+            // The pose on a frame, with the line from key to key that MMD draws.
+            let pose = |keys: &[VmdKey], frame: f32| {
+                let own: Vec<&VmdKey> = keys.iter().filter(|key| key.bone == bone).collect();
+                let after = own.partition_point(|key| key.frame as f32 <= frame);
+                let (from, to) = (own[after - 1], own[after.min(own.len() - 1)]);
+                let share = (frame - from.frame as f32) / (to.frame - from.frame).max(1) as f32;
+                let between = |a: f32, b: f32| a + share * (b - a);
+                let place: Vec<f32> =
+                    (0..3).map(|at| between(from.translation[at], to.translation[at])).collect();
+                let turn: Vec<f32> =
+                    (0..4).map(|at| between(from.rotation[at], to.rotation[at])).collect();
+                [place, turn].concat()
+            };
+            let last = plain.last().unwrap().frame;
+            for frame in 0..=30 {
+                assert_eq!(pose(&late, frame as f32), pose(&plain, 0.0), "{bone}, {frame}");
+            }
+            for frame in 0..=last {
+                let mut near =
+                    pose(&late, (frame + 30) as f32).into_iter().zip(pose(&plain, frame as f32));
+                assert!(near.all(|(a, b)| (a - b).abs() < 1e-5), "{bone}, {frame}");
+            }
+            assert_eq!(pose(&late, (last + 55) as f32), pose(&plain, last as f32), "{bone}");
+        }
+    }
 }
 
 #[test]

@@ -55,7 +55,33 @@ fn what_comes_back_unchanged_is_the_same_sheet() {
             let tdts = Tdts { version, ..Tdts::default() }.write(&sheet, "kick").unwrap();
             assert_eq!(retimed(&read_cells(tdts.as_bytes()).unwrap(), &sheet).unwrap(), sheet);
         }
+        let late = sheet.clone().with_blank(Blank { before: 24, after: 9 });
+        for before in [&sheet, &late] {
+            let back = retimed(&read_cells(douga(&late).as_bytes()).unwrap(), before).unwrap();
+            assert_eq!(back, late, "{layers}: whatever it was before");
+        }
     }
+}
+
+#[test]
+fn a_column_may_leave_early_and_must_not_enter_late_alone() {
+    let sheet = sheet("limbs");
+    let later = |track: usize, koma: u64| {
+        let text = edited(&douga(&sheet), track, |entries| {
+            entries.retain(|(at, _)| *at >= koma);
+            entries.push((0, "SYMBOL_NULL_CELL".into()));
+            entries.push((koma, "1".into()));
+        });
+        retimed(&read_cells(text.as_bytes()).unwrap(), &sheet)
+    };
+    let error = later(1, 5).unwrap_err().to_string();
+    assert!(error.contains("column B, koma 1: nothing is shown there"), "{error}");
+    let text = edited(&douga(&sheet), 1, |entries| {
+        entries.retain(|(at, _)| *at < 50);
+        entries.push((50, "SYMBOL_NULL_CELL".into()));
+    });
+    let back = retimed(&read_cells(text.as_bytes()).unwrap(), &sheet).unwrap();
+    assert_eq!((back.layers[1].length(), back.blank), (50, Blank::default()));
 }
 
 #[test]

@@ -4,6 +4,8 @@ use serde_json::Value;
 
 use super::sheets::{cut_of_24, spelled};
 use crate::xdts::{Xdts, read};
+use genga::sheet::Sheet;
+use genga::slate::Slate;
 
 const GENGA: &str = include_str!("genga.xdts");
 
@@ -29,7 +31,8 @@ fn cels_alone(file: &str) -> Value {
 
 #[test]
 fn both_examples_are_made_again_from_their_sheet() {
-    let made = Xdts::default().write(&cut_of_24(), "c001").unwrap();
+    let slate = Slate::from_name("s1_c1");
+    let made = Xdts::default().write(&Sheet { slate, ..cut_of_24() }, "c001").unwrap();
     assert_eq!(json(&made.genga), json(GENGA));
     assert_eq!(json(&made.douga), cels_alone(DOUGA));
 }

@@ -6,7 +6,7 @@ use super::sheets::sheet;
 use super::writing::holds;
 use crate::cases::cases;
 use crate::xdts::read;
-use genga::sheet::{Drawing, Exposure, Layer, Role, Sheet, Source, Why};
+use genga::sheet::{Blank, Drawing, Exposure, Layer, Role, Sheet, Source, Why};
 
 /// Drawings whose first and last are ends.
 fn any_drawings() -> impl Strategy<Value = Vec<Drawing>> {
@@ -56,8 +56,11 @@ fn any_layer() -> impl Strategy<Value = Layer> {
     })
 }
 
-pub(super) fn any_sheet() -> impl Strategy<Value = Sheet> {
-    prop::collection::vec(any_layer(), 1..4).prop_map(sheet)
+pub(in crate::xdts) fn any_sheet() -> impl Strategy<Value = Sheet> {
+    let blank = (0..30_usize, 0..30_usize).prop_map(|(before, after)| Blank { before, after });
+    let blank = prop_oneof![Just(Blank::default()), blank];
+    let layers = prop::collection::vec(any_layer(), 1..4);
+    (layers, blank).prop_map(|(layers, blank)| sheet(layers).with_blank(blank))
 }
 
 proptest! {

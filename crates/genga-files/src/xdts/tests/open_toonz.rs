@@ -73,7 +73,7 @@ pub(super) fn agrees(sheet: &Sheet, genga: &str, douga: &str) {
             let before = &layer.drawings[..=drawing];
             before.iter().filter(|drawing| drawing.role != Role::Inbetween).count() as u64
         };
-        let shown: Vec<usize> = layer.koma().collect();
+        let (shown, before): (Vec<usize>, usize) = (layer.koma().collect(), sheet.blank.before);
         let mut key = None;
         for (koma, &drawing) in shown.iter().enumerate() {
             let begins = koma == 0 || shown[koma - 1] != drawing;
@@ -81,14 +81,17 @@ pub(super) fn agrees(sheet: &Sheet, genga: &str, douga: &str) {
             if is_key {
                 key = Some(kept(drawing));
             }
+            let koma = before + koma;
             assert_eq!(genga.rows[koma], key, "genga, koma {koma}");
             assert_eq!(douga.rows[koma], Some(drawing as u64 + 1), "douga, koma {koma}");
             assert_eq!(genga.ticks.contains(&koma), begins && !is_key, "tick, koma {koma}");
             assert_eq!(douga.keys.contains(&koma), begins && is_key, "circle, koma {koma}");
         }
         for level in [genga, douga] {
-            assert_eq!(level.rows.len(), shown.len() + 1, "one row after the last");
-            assert_eq!(level.rows[shown.len()], None, "which is empty");
+            let (first, end) = (before.min(level.rows.len()), before + shown.len());
+            assert!(level.rows[..first].iter().all(Option::is_none), "nothing before it enters");
+            assert_eq!(level.rows.len(), end + 1, "one row after the last");
+            assert_eq!(level.rows[end], None, "which is empty");
         }
     }
 }

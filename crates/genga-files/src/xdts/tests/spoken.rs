@@ -4,7 +4,7 @@ use proptest::prelude::*;
 
 use super::sheets::cut_of_24;
 use crate::xdts::{Tdts, Xdts, read, read_cells, retimed};
-use genga::sheet::{Sheet, SpokenLine};
+use genga::sheet::{Blank, CameraWork, Sheet, SpokenLine};
 
 fn line(begin: usize, koma: usize, speaker: &str, words: &str) -> SpokenLine {
     SpokenLine { begin, koma, speaker: speaker.into(), words: words.into() }
@@ -89,4 +89,29 @@ proptest! {
             prop_assert_eq!(&read(file.as_bytes()).unwrap().lines, &sheet.lines);
         }
     }
+}
+
+#[test]
+fn camera_work_is_in_the_camera_column_with_its_words_first() {
+    let mut sheet = super::sheets::cut_of_24();
+    let work = |begin, koma, words: &str| CameraWork { begin, koma, words: words.into() };
+    sheet.camera = vec![work(2, 3, "PAN"), work(3, 2, "T.U")];
+    let text = Xdts::default().write(&sheet, "c1").unwrap().genga;
+    let file: serde_json::Value = serde_json::from_str(text.split_once('\n').unwrap().1).unwrap();
+    let table = &file["timeTables"][0];
+    assert_eq!(
+        table["timeTableHeaders"][1],
+        serde_json::json!({ "fieldId": 5, "names": ["CAM1", "CAM2"] })
+    );
+    let field = &table["fields"][1];
+    assert_eq!((&field["fieldId"], field["tracks"].as_array().unwrap().len()), (&5.into(), 2));
+    let frames = field["tracks"][0]["frames"].as_array().unwrap();
+    let entry = |entry: &serde_json::Value| {
+        (entry["frame"].as_u64().unwrap(), entry["data"][0]["values"].clone())
+    };
+    let written: Vec<_> = frames.iter().map(entry).collect();
+    let signs = ["PAN", "SYMBOL_HYPHEN", "SYMBOL_HYPHEN"].map(|sign| serde_json::json!([sign]));
+    assert_eq!(written, (2..).zip(signs).collect::<Vec<_>>());
+    let late = sheet.with_blank(Blank { before: 24, after: 0 });
+    assert_eq!(late.camera.iter().map(|work| work.begin).collect::<Vec<_>>(), [26, 27]);
 }

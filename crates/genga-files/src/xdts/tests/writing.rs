@@ -11,7 +11,8 @@ use genga::edits::Edits;
 use genga::motion::{Clip, bvh};
 use genga::pipeline::Engine;
 use genga::recipe::Recipe;
-use genga::sheet::Sheet;
+use genga::sheet::{Blank, Sheet};
+use genga::slate::Slate;
 
 fn here(path: &str) -> std::path::PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(path)
@@ -42,7 +43,7 @@ pub(super) fn holds(sheet: &Sheet, cut: &str) {
     for file in [&made.genga, &made.douga] {
         let table = &json(file)["timeTables"][0];
         assert_eq!(table["name"], cut);
-        assert_eq!(table["duration"], sheet.length());
+        assert_eq!(table["duration"], sheet.cut_length());
         let names = table["timeTableHeaders"][0]["names"].as_array().unwrap();
         let tracks = table["fields"][0]["tracks"].as_array().unwrap();
         assert!(
@@ -56,7 +57,11 @@ pub(super) fn holds(sheet: &Sheet, cut: &str) {
             let values: Vec<_> =
                 entries.iter().map(|e| e["data"][0]["values"][0].as_str().unwrap()).collect();
             assert_eq!(values[values.len() - 1], "SYMBOL_NULL_CELL");
-            assert_eq!(koma[koma.len() - 1], layer.length() as u64);
+            let before = sheet.blank.before as u64;
+            assert_eq!(koma[koma.len() - 1], before + layer.length() as u64);
+            if before > 0 {
+                assert_eq!((values[0], koma[1]), ("SYMBOL_NULL_CELL", before));
+            }
             for pair in values.windows(2) {
                 assert!(pair[0] != pair[1] || pair[0] == "SYMBOL_TICK_1", "{values:?}");
             }
@@ -69,24 +74,28 @@ pub(super) fn holds(sheet: &Sheet, cut: &str) {
 /// Checks that both files read back as the sheet.
 fn round_trip(sheet: &Sheet, made: &XdtsPair) {
     let [genga, douga] = [&made.genga, &made.douga].map(|file| read(file.as_bytes()).unwrap());
-    assert_eq!((genga.length, douga.length), (sheet.length(), sheet.length()));
+    assert_eq!((genga.length, douga.length), (sheet.cut_length(), sheet.cut_length()));
+    let before = sheet.blank.before;
     for ((layer, genga), douga) in sheet.layers.iter().zip(&genga.columns).zip(&douga.columns) {
         let number = |mark: &crate::xdts::Mark| match mark {
             crate::xdts::Mark::Drawing(number) => number.parse::<usize>().ok(),
             _ => None,
         };
-        let drawings: Vec<_> =
-            douga.on_koma(layer.length()).map(|change| number(&change.mark).unwrap() - 1).collect();
+        let end = before + layer.length();
+        let drawings: Vec<_> = douga
+            .on_koma(end)
+            .skip(before)
+            .map(|change| number(&change.mark).unwrap() - 1)
+            .collect();
         assert_eq!(drawings, layer.koma().collect::<Vec<_>>());
-        let kept = genga.on_koma(layer.length()).map(|change| number(&change.mark).is_some());
+        let kept = genga.on_koma(end).skip(before).map(|change| number(&change.mark).is_some());
         let meant = layer.koma().map(|drawing| layer.drawings[drawing].role.is_kept());
         assert!(kept.eq(meant), "keys are numbered, inbetweens are marks");
-        assert!(
-            genga
-                .on_koma(sheet.length())
-                .skip(layer.length())
-                .all(|change| { change.mark == crate::xdts::Mark::Blank })
-        );
+        for column in [genga, douga] {
+            let koma = column.on_koma(sheet.cut_length()).enumerate();
+            let mut blank = koma.filter(|(koma, _)| !(before..end).contains(koma));
+            assert!(blank.all(|(_, change)| change.mark == crate::xdts::Mark::Blank));
+        }
     }
 }
 
@@ -114,24 +123,39 @@ fn the_files_of_a_kick_look_as_they_did() {
 }
 
 #[test]
-fn a_cut_s_digits_go_into_the_header_and_its_whole_name_stays() {
+fn cut_and_scene_of_the_name_go_into_the_header_and_the_whole_name_stays() {
     let header = |cut: &str| {
         let file = json(&both(&cut_of_24(), cut).genga);
         assert_eq!(file["timeTables"][0]["name"], cut);
         let text = |member: &str| file["header"][member].as_str().unwrap_or("-").to_owned();
         [text("cut"), text("scene")]
     };
-    assert_eq!(header("C012A"), ["12", "1"]);
     assert_eq!(header("s03_c045"), ["45", "3"]);
-    assert_eq!(header("S3-7"), ["7", "3"]);
-    assert_eq!(header("ep12_c034"), ["34", "1"]);
-    assert_eq!(header("カット７ 018"), ["18", "1"]);
-    assert_eq!(header("c000"), ["0", "1"]);
-    assert_eq!(header("cmu-11_01-soccer-kick"), ["11", "1"]);
-    assert_eq!(header("take20240501_c5"), ["5", "1"]);
-    for without in ["kick", "", "20240501", "蹴り"] {
+    assert_eq!(header("EP12_SC1_C012A"), ["12", "1"]);
+    assert_eq!(header("take20240501_s2_c5"), ["5", "2"]);
+    for without in ["kick", "", "20240501", "蹴り", "c045", "cmu-11_01-soccer-kick", "s1_walk_c3d"]
+    {
         assert_eq!(header(without), ["-", "-"], "{without}");
     }
+}
+
+#[test]
+fn a_slate_goes_into_the_header_over_the_name() {
+    let slate = Slate { scene: "4".into(), cut: "C-045a".into(), ..Slate::default() };
+    let file = json(&both(&Sheet { slate, ..cut_of_24() }, "s03_c012").genga);
+    assert_eq!(file["header"], serde_json::json!({ "cut": "45", "scene": "4" }));
+    assert_eq!(file["timeTables"][0]["name"], "s03_c012");
+}
+
+#[test]
+fn a_cut_that_is_entered_late_and_left_early_has_null_cells_at_both_ends() {
+    let sheet = cut_of_24().with_blank(Blank { before: 24, after: 12 });
+    holds(&sheet, "c1");
+    let read = read(both(&sheet, "c1").douga.as_bytes()).unwrap();
+    let spelled = super::sheets::spelled(&read.columns[0], read.length);
+    let blank = |koma: usize| vec!["x"; koma].join(" ");
+    let drawn = "1 1 1 1 1 1 2 2 3 3 4 4 4 5 5 5 6 6 6 7 7 7 7 7";
+    assert_eq!(spelled, format!("{} {drawn} {}", blank(24), blank(12)));
 }
 
 #[test]

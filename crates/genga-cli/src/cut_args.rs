@@ -1,0 +1,111 @@
+//! The cut that a sheet belongs to (カット): its slate, and where the drawings stand in it.
+
+use clap::Args;
+
+use super::headings::CUT;
+use genga::edits::Edits;
+use genga::error::Error;
+use genga::sheet::{Blank, Sheet};
+use genga::slate::Slate;
+
+/// The slate of a cut, and the place of the drawings in it.
+#[derive(Debug, Default, Clone, Args)]
+pub(super) struct CutArgs {
+    /// The work, on every sheet.
+    #[arg(long, value_name = "NAME", help_heading = CUT)]
+    title: Option<String>,
+    /// The episode [default: ep03 in the clip's name, if that has a cut].
+    #[arg(long, value_name = "NUMBER", help_heading = CUT)]
+    episode: Option<String>,
+    /// The scene [default: s12 or sc12 in the name].
+    #[arg(long, value_name = "NUMBER", help_heading = CUT)]
+    scene: Option<String>,
+    /// The cut [default: c045 or c045a in the name].
+    #[arg(long, value_name = "NUMBER", help_heading = CUT)]
+    cut: Option<String>,
+    /// The take [default: t2 or tk2 in the name].
+    #[arg(long, value_name = "NUMBER", help_heading = CUT)]
+    take_number: Option<String>,
+    /// The key animator.
+    #[arg(long, value_name = "NAME", help_heading = CUT)]
+    animator: Option<String>,
+    /// The koma on which the first drawing stands: --at 25
+    ///
+    /// Those before it are blank (カラ). A motion stands in its first pose there.
+    #[arg(long, value_name = "KOMA", value_parser = koma, allow_negative_numbers = true, help_heading = CUT)]
+    at: Option<usize>,
+    /// Koma of the whole cut: --length 72
+    ///
+    /// Those after the drawings are blank (カラ). A motion stands in its last pose there.
+    #[arg(long, value_name = "KOMA", value_parser = koma, allow_negative_numbers = true, help_heading = CUT)]
+    length: Option<usize>,
+}
+
+fn koma(text: &str) -> Result<usize, String> {
+    let number = text.trim().parse().ok().filter(|koma| *koma > 0);
+    number
+        .ok_or_else(|| format!("expected a number of koma, 1 or more, as in 25, found \"{text}\""))
+}
+
+impl CutArgs {
+    /// Puts the cut over that of a recipe.
+    pub(super) fn put(&self, edits: &mut Edits) {
+        edits.at = self.at.or(edits.at);
+        edits.length = self.length.or(edits.length);
+        edits.slate = self.slate().over(std::mem::take(&mut edits.slate));
+    }
+
+    /// Puts the cut over that of a sheet.
+    pub(super) fn place(&self, mut sheet: Sheet) -> Result<Sheet, Error> {
+        let slate = self.slate();
+        slate.validate()?;
+        sheet.slate = slate.over(sheet.slate);
+        sheet.placed(self.at, self.length)
+    }
+
+    fn slate(&self) -> Slate {
+        let field = |field: &Option<String>| field.as_deref().unwrap_or_default().trim().to_owned();
+        Slate {
+            title: field(&self.title),
+            episode: field(&self.episode),
+            scene: field(&self.scene),
+            cut: field(&self.cut),
+            take: field(&self.take_number),
+            animator: field(&self.animator),
+        }
+    }
+}
+
+/// Describes the slate of a sheet and its blank koma, a line each. `name` is that of the cut's files.
+pub(super) fn lines(sheet: &Sheet, name: &str) -> Vec<String> {
+    let of_name = Slate::from_name(name);
+    let slate = sheet.slate.clone().over(of_name.clone());
+    let mut lines = Vec::new();
+    if !slate.is_empty() {
+        let guess =
+            if of_name.is_empty() { "" } else { " (numbers not given: from the file's name)" };
+        lines.push(format!("slate       カチンコ   {slate}{guess}"));
+    }
+    if !sheet.blank.is_none() {
+        lines.push(format!("blank       カラ       {}", blank(sheet)));
+    }
+    lines
+}
+
+/// Describes the blank koma of a sheet.
+fn blank(sheet: &Sheet) -> String {
+    let Blank { before, after } = sheet.blank;
+    let length = sheet.cut_length();
+    let first = (before > 0).then(|| (range(1, before), "first"));
+    let last = (after > 0).then(|| (range(length - after + 1, length), "last"));
+    let (koma, poses): (Vec<String>, Vec<&str>) = first.into_iter().chain(last).unzip();
+    format!(
+        "koma {} of {length}; a motion stands in its {} pose there",
+        koma.join(" and "),
+        poses.join(" or ")
+    )
+}
+
+fn range(from: usize, to: usize) -> String {
+    if from == to { from.to_string() } else { format!("{from} to {to}") }
+}
