@@ -1,6 +1,7 @@
 //! A reused engine gives the results of a fresh one, and corrections hold.
 
 mod local;
+mod scoped;
 pub(crate) mod walking;
 
 use proptest::prelude::*;
