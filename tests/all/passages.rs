@@ -151,7 +151,7 @@ fn on_real_clips_the_take_stays_as_it_is_outside_of_passages() {
         let (first, frames) = (clip.first().0, clip.len());
         let [from, past] = [first + frames / 3, first + frames / 2];
         let within = format!("{from}..{past}:spacing.on");
-        let made = sheet(&clip, &[(&within, "2-3"), ("outside", "source")]);
+        let made = sheet(&clip, &[(within.as_str(), "2-3"), ("outside", "source")]);
         let source = Sheet::on_ones(made.clock, made.length());
         let [result, source] = [&made, &source].map(|sheet| shown(&clip, sheet));
         let koma = [from, past].map(|frame| made.clock.koma_from_frame(Frame(frame)));
@@ -176,13 +176,13 @@ fn on_real_clips_the_take_stays_as_it_is_outside_of_passages() {
 fn on_a_real_clip_punches_are_on_ones_and_all_else_on_twos() {
     clips::with(["cmu-02_05-punch-strike"], |[path]| {
         let clip = clips::read(&path);
-        // The fastest second of the plain sheet is a punch.
+        // Punches, in the third second.
         let plain = sheet(&clip, &PLAIN);
         let first = plain.clock.first.0;
         let frames = |koma: usize| first + (koma as f64 * plain.clock.frames_in_koma()) as usize;
         let [from, past] = [48, 72].map(frames);
         let [on, drift] = ["on", "drift"].map(|knob| format!("{from}..{past}:spacing.{knob}"));
-        let settings = [&PLAIN[..], &[(&on, "1"), (&drift, "0")]].concat();
+        let settings = [&PLAIN[..], &[(on.as_str(), "1"), (drift.as_str(), "0")]].concat();
         let made = sheet(&clip, &settings);
         let (within, outside): (Vec<_>, Vec<_>) =
             timing(&made.layers[0]).into_iter().partition(|(begin, _)| (48..72).contains(begin));
