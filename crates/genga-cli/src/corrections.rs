@@ -255,8 +255,7 @@ impl LayerArgs {
                 other => other.into(),
             })?;
         }
-        let outside = self.outside.iter();
-        outside.into_iter().try_for_each(|word| Ok(recipe.set("outside", word)?))
+        self.outside.iter().try_for_each(|word| Ok(recipe.set("outside", word)?))
     }
 }
 
