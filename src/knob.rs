@@ -247,8 +247,8 @@ pub trait Knobs {
 
 /// Declares the knobs of a settings struct of a section: `knobs!(filter::LowPass { width: knob(…), … })`.
 ///
-/// Fields after `..` have no knob; fields after `..` in brackets are structs with knobs of their own. A forgotten field
-/// does not compile.
+/// Fields after `..` have no knob; fields after `..` in brackets are structs with knobs of their own, behind which others
+/// without a knob may follow. A forgotten field does not compile.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! knobs {
@@ -258,8 +258,8 @@ macro_rules! knobs {
     ($of:ident { $($rows:tt)* }) => {
         $crate::knob::knobs!(@rows ("") $of $($rows)*);
     };
-    (@rows $section:tt $of:ident $($field:ident: $knob:expr,)* ..[$($under:ident),+]) => {
-        $crate::knob::knobs!(@impl $section $of [$($field: $knob),*] [] [$($under),+]);
+    (@rows $section:tt $of:ident $($field:ident: $knob:expr,)* ..[$($under:ident),+] $(, ..$bare:ident)*) => {
+        $crate::knob::knobs!(@impl $section $of [$($field: $knob),*] [$($bare),*] [$($under),+]);
     };
     (@rows $section:tt $of:ident $($field:ident: $knob:expr,)* ..$($bare:ident),+) => {
         $crate::knob::knobs!(@impl $section $of [$($field: $knob),*] [$($bare),+] []);

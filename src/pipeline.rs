@@ -229,14 +229,19 @@ impl Engine {
         self.find(recipe, edits)?;
         self.split(recipe, edits);
         let later = self.later(recipe);
+        let laid = Arc::clone(&self.laid.output().clip);
+        let place = (laid.clock(recipe.rate), laid.last());
+        let length = laid.rate().koma_from_frames(laid.len(), recipe.rate);
         let stop = self.stop.clone();
         let (measured, split, layers) = self.layers();
         for (joints, layer) in split.iter().zip(layers) {
             stop.check()?;
+            let name = &joints.name;
             layer.take(&measured, joints, &recipe.keys.weights)?;
-            layer.find(&measured, recipe, &edits.of_layer(&joints.name));
+            layer.find(&measured, &recipe.of_layer(name), &edits.of_layer(name));
             stop.check()?;
-            layer.time(&measured, joints, recipe, &later)?;
+            let timing = recipe.timing_of(name, place, length);
+            layer.time(&measured, joints, timing, &later)?;
             done(layer);
         }
         self.sheet(recipe, edits)?;
@@ -315,24 +320,24 @@ impl Engine {
         &mut self,
         recipe: &Recipe,
     ) -> Result<(&[Vec<Turn>], &BodyTurns), Error> {
-        self.check_and_turn(recipe, &Edits::default(), |first, moving, _| {
-            first.find_body_turns(moving, recipe);
+        self.check_and_turn(recipe, &Edits::default(), |first, moving, own, _| {
+            first.find_body_turns(moving, own);
         })?;
         Ok((self.joints.turns.output().value(), self.layers[0].body_turns()))
     }
 
     /// Runs the chain up to the tracks of the body or its first layer, in which its turns are found.
     pub fn follow(&mut self, recipe: &Recipe) -> Result<(), Error> {
-        self.check_and_turn(recipe, &Edits::default(), |first, moving, _| {
-            first.follow(moving, recipe);
+        self.check_and_turn(recipe, &Edits::default(), |first, moving, own, _| {
+            first.follow(moving, own);
         })
     }
 
     /// Runs the chain up to the body's turns and the loss between any two koma, by which genga are chosen.
     pub fn compare(&mut self, recipe: &Recipe) -> Result<(), Error> {
-        self.check_and_turn(recipe, &Edits::default(), |first, moving, _| {
-            first.find_body_turns(moving, recipe);
-            first.compare(moving, recipe);
+        self.check_and_turn(recipe, &Edits::default(), |first, moving, own, _| {
+            first.find_body_turns(moving, own);
+            first.compare(moving, own);
         })
     }
 
@@ -367,6 +372,10 @@ impl Engine {
             let message =
                 "only a loop has several rounds; --loop makes one, in a recipe loop = true";
             return Err(Error::setting("cycles", message));
+        }
+        if recipe.r#loop && recipe.scopes.has_passages() {
+            let message = "a loop has no passages: its rounds are timed alike; a layer may have settings of its own";
+            return Err(Error::setting("passages", message));
         }
         let rate = recipe.r#loop.then_some(recipe.rate);
         self.laid.try_make((Of::given(&self.clip),), rate, |(clip,), rate| Laid::new(&clip, *rate))
@@ -420,11 +429,12 @@ impl Engine {
 
     /// Finds the keys of the first layer.
     fn find(&mut self, recipe: &Recipe, edits: &Edits) -> Result<(), Error> {
-        self.check_and_turn(recipe, edits, |first, moving, name| {
-            first.find_alone(moving, recipe, &edits.of_layer(name));
+        self.check_and_turn(recipe, edits, |first, moving, own, name| {
+            first.find_alone(moving, own, &edits.of_layer(name));
         })?;
         let (measured, split, layers) = self.layers();
-        layers[0].find(&measured, recipe, &edits.of_layer(&split[0].name));
+        let name = &split[0].name;
+        layers[0].find(&measured, &recipe.of_layer(name), &edits.of_layer(name));
         Ok(())
     }
 
@@ -437,12 +447,13 @@ impl Engine {
         });
     }
 
-    /// Finds the turns of every joint while `alone` runs those stages of the first layer that do not need them.
+    /// Finds the turns of every joint while `alone` runs those stages of the first layer that do not need them, with the
+    /// recipe and the name of that layer.
     fn check_and_turn(
         &mut self,
         recipe: &Recipe,
         edits: &Edits,
-        alone: impl FnOnce(&mut LayerStages, &Moving<'_>, &str) + Send,
+        alone: impl FnOnce(&mut LayerStages, &Moving<'_>, &Recipe, &str) + Send,
     ) -> Result<(), Error> {
         recipe.validate()?;
         self.lay(recipe)?;
@@ -458,6 +469,7 @@ impl Engine {
         let split = self.split.output();
         let names: Vec<&str> = split.iter().map(|joints| joints.name.as_str()).collect();
         edits.check_layers(&names)?;
+        recipe.scopes.check_on(&names, (laid.first(), laid.last()), recipe)?;
         let clock = laid.clock(recipe.rate);
         names.iter().try_for_each(|name| one_pin_a_koma(&edits.of_layer(name), clock))?;
         recipe.keys.weights.resolve(self.clip.skeleton())?;
@@ -473,7 +485,9 @@ impl Engine {
         first.take(&moving, &split[0], &recipe.keys.weights)?;
         let (clip, speed) = (moving.clip, self.speed.output());
         let joints = &mut self.joints;
-        rayon::join(|| joints.turn(clip, speed, recipe), || alone(first, &moving, &split[0].name));
+        let name = &split[0].name;
+        let own = recipe.of_layer(name);
+        rayon::join(|| joints.turn(clip, speed, recipe), || alone(first, &moving, &own, name));
         Ok(())
     }
 

@@ -4,6 +4,8 @@
 mod file;
 mod footage;
 mod knobs;
+mod scopes;
+mod timing;
 
 use serde::{Deserialize, Serialize};
 
@@ -17,9 +19,13 @@ use crate::signal::{LowPass, Speed, TurnFinder};
 use crate::time::KOMA_RATE;
 use crate::timing::{Omission, Spacing};
 
+use scopes::Scope;
+
 pub use crate::knob::{Kind, Knob, Who};
 pub use footage::Footage;
 pub use knobs::KNOBS;
+pub use scopes::{Frames, Outside, Overrides, Passage, Scopes};
+pub use timing::LayerTiming;
 
 /// The prefix of a setting that weights a joint, followed by the joint's name.
 const WEIGHTS: &str = "keys.weights.";
@@ -65,6 +71,9 @@ pub struct Recipe {
     pub spacing: Spacing,
     /// Leaves drawings out.
     pub omission: Omission,
+    /// Settings of single layers and of passages, over all others.
+    #[serde(skip_serializing_if = "Scopes::is_empty")]
+    pub scopes: Scopes,
 }
 
 impl Default for Recipe {
@@ -85,6 +94,7 @@ impl Default for Recipe {
             actions: ActionFinder::default(),
             spacing: Spacing::default(),
             omission: Omission::default(),
+            scopes: Scopes::default(),
         }
     }
 }
@@ -145,7 +155,7 @@ knobs!(Recipe {
     .unit("rounds")
     .at_least(1.0)
     .at_most(1000.0),
-    ..[exaggerate, speed, filter, turns, keys, actions, spacing, omission]
+    ..[exaggerate, speed, filter, turns, keys, actions, spacing, omission], ..scopes
 });
 
 impl Recipe {
@@ -156,13 +166,18 @@ impl Recipe {
     pub fn validate(&self) -> Result<(), Error> {
         self.check()?;
         self.layers.validate()?;
-        self.keys.weights.validate()
+        self.keys.weights.validate()?;
+        self.scopes.validate(self)
     }
 
     /// Sets one knob from text, as `--set KEY=VALUE` does. The text `none` clears an optional one.
     ///
+    /// `B/spacing.on` is the knob of layer B, `120..240:spacing.on` that of a passage of source frames (the last not
+    /// included), `B/120..240:spacing.on` that of a passage of one layer; `none` takes such a setting back. `passages`
+    /// is the list of all, and `outside` what is shown elsewhere.
+    ///
     /// # Errors
-    /// [`Error::Setting`] when there is no such knob, or the knob does not accept the value.
+    /// [`Error::Setting`] when there is no such knob, it holds for the whole take, or does not accept the value.
     ///
     /// ```
     /// use genga::recipe::Recipe;
@@ -176,6 +191,14 @@ impl Recipe {
     pub fn set(&mut self, name: &str, text: &str) -> Result<(), Error> {
         if let Some(joint) = name.strip_prefix(WEIGHTS).filter(|joint| !joint.is_empty()) {
             return self.set_weight(joint, text.trim());
+        }
+        match name {
+            "passages" => return self.set_passages(text.trim()),
+            "outside" => return self.set_outside(text.trim()),
+            _ => {}
+        }
+        if let Some((scope, knob)) = Scope::split(name)? {
+            return self.set_of(&scope, knob, text.trim());
         }
         let mut changed = self.clone();
         changed.turn(name, text).ok_or_else(|| knobs::unknown(name))??;
@@ -201,8 +224,95 @@ impl Recipe {
         Ok(())
     }
 
-    /// Returns every setting with its value, in the words of [`Recipe::set`]: all of [`KNOBS`], and the weights given
-    /// to joints.
+    /// Sets a knob of a layer or a passage.
+    fn set_of(&mut self, scope: &Scope, name: &str, text: &str) -> Result<(), Error> {
+        scope.admit(name)?;
+        let knob = Knob::find(name).map_err(|error| scope.named(error))?;
+        let word = match text {
+            "none" if !knob.is_optional() => None,
+            text => {
+                let mut own = self.without_scopes();
+                own.set(name, text).map_err(|error| scope.named(error))?;
+                Some(own.get(name)?)
+            }
+        };
+        let mut changed = self.clone();
+        changed.scopes.of(scope).put(name, word);
+        changed.scopes.layers.retain(|_, own| !own.is_empty());
+        changed.validate()?;
+        *self = changed;
+        Ok(())
+    }
+
+    /// Adds a passage as on the command line: `[LAYER/]A..B`, with a setting behind it or without, as in
+    /// `120..240:spacing.on=1`. Without one it has the settings of its layer. The same range again adds a setting.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] as [`Recipe::set`], and if there is no range.
+    ///
+    /// ```
+    /// use genga::recipe::Recipe;
+    ///
+    /// let mut recipe = Recipe::default();
+    /// recipe.add_passage("120..240:spacing.on=1")?;
+    /// recipe.add_passage("B/120..240")?;
+    /// assert_eq!(recipe.scopes.passages.len(), 2);
+    /// # Ok::<(), genga::Error>(())
+    /// ```
+    pub fn add_passage(&mut self, text: &str) -> Result<(), Error> {
+        let (name, word) =
+            text.split_once('=').map_or((text, None), |(name, word)| (name, Some(word)));
+        let wrong = || {
+            let message = format!(
+                "expected [LAYER/]A..B[:KEY=VALUE], as in 120..240:spacing.on=1, found \"{text}\""
+            );
+            Error::setting("passages", message)
+        };
+        let (scope, knob) = Scope::split(name.trim())?.ok_or_else(wrong)?;
+        match (scope.frames, word, knob) {
+            (Some(_), Some(word), knob) if !knob.is_empty() => {
+                self.set_of(&scope, knob, word.trim())
+            }
+            (Some(_), None, "") => self.add(&scope),
+            _ => Err(wrong()),
+        }
+    }
+
+    /// Adds a layer or passage without settings, unless it is there.
+    fn add(&mut self, scope: &Scope) -> Result<(), Error> {
+        let mut changed = self.clone();
+        changed.scopes.of(scope);
+        changed.validate()?;
+        *self = changed;
+        Ok(())
+    }
+
+    fn set_passages(&mut self, text: &str) -> Result<(), Error> {
+        let mut changed = self.clone();
+        changed.scopes.passages.clear();
+        if text != "none" {
+            let read = changed.overlaid(&format!("passages = {text}"));
+            (changed, _) = read.map_err(|error| match error {
+                Error::Recipe { message, .. } => Error::setting("passages", message),
+                other => other,
+            })?;
+        }
+        *self = changed;
+        Ok(())
+    }
+
+    fn set_outside(&mut self, text: &str) -> Result<(), Error> {
+        self.scopes.outside = text.parse().map_err(|message| Error::setting("outside", message))?;
+        Ok(())
+    }
+
+    /// Returns the recipe without settings of layers and passages.
+    fn without_scopes(&self) -> Self {
+        Self { scopes: Scopes::default(), ..self.clone() }
+    }
+
+    /// Returns every setting with its value, in the words of [`Recipe::set`]: all of [`KNOBS`], the weights given to
+    /// joints, and the settings of layers and passages.
     pub fn settings(&self) -> Vec<(String, String)> {
         let mut values = self.values();
         values.sort_by_key(|(knob, _)| knob.who);
@@ -210,7 +320,7 @@ impl Recipe {
         let weights = self.keys.weights.0.iter();
         let weights =
             weights.map(|(joint, weight)| (format!("{WEIGHTS}{joint}"), weight.to_string()));
-        knobs.chain(weights).collect()
+        knobs.chain(weights).chain(self.scopes.settings()).collect()
     }
 
     /// Returns a knob's value as text that [`Recipe::set`] reads back.
@@ -218,8 +328,13 @@ impl Recipe {
     /// # Errors
     /// [`Error::Setting`] when there is no such knob.
     pub fn get(&self, name: &str) -> Result<String, Error> {
+        if name == "outside" {
+            return Ok(self.scopes.outside.to_string());
+        }
         let own = self.values().into_iter().find(|(knob, _)| knob.name == name);
-        own.map(|(_, value)| value.text()).ok_or_else(|| knobs::unknown(name))
+        let of_scope = || self.scopes.settings().find(|(own, _)| own == name).map(|(_, word)| word);
+        let own = own.map(|(_, value)| value.text()).or_else(of_scope);
+        own.ok_or_else(|| knobs::unknown(name))
     }
 }
 

@@ -188,7 +188,8 @@ pub enum Role {
     Genga,
     /// A drawing between two keys (中割り).
     Inbetween,
-    /// The clip's first or last drawing: a genga even if no key was found there.
+    /// The first or last drawing of the clip, or where a passage meets the take as it is: a genga even if no key was found
+    /// there.
     End,
 }
 

@@ -2,6 +2,7 @@
 //! a person's holds are applied last.
 
 mod amount;
+mod by_passage;
 mod drawing_list;
 mod gauge;
 mod holds;
@@ -18,6 +19,7 @@ mod tournament;
 mod tests;
 
 pub use amount::Amount;
+pub use by_passage::ByPassage;
 pub use gauge::{Gauge, Packing, fraction};
 pub use holds::{held_for, with_holds};
 pub use koma_per_drawing::{On, Pace};

@@ -5,6 +5,7 @@ mod named;
 #[cfg(test)]
 mod tests;
 
+use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
@@ -68,19 +69,33 @@ impl Layers {
         }
     }
 
-    /// Reads layers from a file of their own: `[[layers]]` with `name` and `joints`, as in a recipe.
+    /// Reads layers from a file of their own: `[[layers]]` with `name` and `joints`, as in a recipe. The settings of the
+    /// layers are passed over.
     ///
     /// # Errors
     /// [`Error::Setting`] if the file is no such list, and the errors of [`Layers::validate`].
-    pub fn parse(text: &str) -> Result<Self, Error> {
+    pub(crate) fn parse(text: &str) -> Result<Self, Error> {
         #[derive(Deserialize)]
         #[serde(deny_unknown_fields)]
         struct File {
-            layers: Vec<NamedLayer>,
+            layers: Vec<WithSettings>,
+        }
+        #[derive(Deserialize)]
+        #[serde(deny_unknown_fields)]
+        struct WithSettings {
+            name: String,
+            joints: Vec<String>,
+            #[serde(default, rename = "keys")]
+            _keys: IgnoredAny,
+            #[serde(default, rename = "spacing")]
+            _spacing: IgnoredAny,
+            #[serde(default, rename = "omission")]
+            _omission: IgnoredAny,
         }
         let wrong = |error: toml::de::Error| Error::setting("layers", error.to_string().trim());
         let file: File = toml::from_str(text).map_err(wrong)?;
-        let layers = Self::Named(file.layers);
+        let named = |WithSettings { name, joints, .. }| NamedLayer { name, joints };
+        let layers = Self::Named(file.layers.into_iter().map(named).collect());
         layers.validate()?;
         Ok(layers)
     }

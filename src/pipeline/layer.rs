@@ -13,12 +13,12 @@ use crate::keys::{
     Reference, Tracks, Word,
 };
 use crate::motion::{Gait, Screen, Skeleton};
-use crate::recipe::Recipe;
+use crate::recipe::{LayerTiming, Recipe};
 use crate::sheet::Layer;
 use crate::signal::{Drawn, LowPass, Signals, Turn};
 use crate::time::Frame;
 use crate::timing::{
-    self, Course, Omission, OmissionReport, Omitted, Pace, Spaced, Spacing, Stills,
+    self, ByPassage, Course, Omission, OmissionReport, Omitted, Pace, Spaced, Spacing, Stills,
 };
 
 /// The whole moving body with the measurements of its joints.
@@ -73,9 +73,10 @@ pub(super) struct LayerStages {
     corrected: Stage<(Choose, Edits, f64, f64), [Chosen; 2]>,
     /// The settings include the clip's first and last frame.
     keys: Stage<(Choose, Edits, f64, (Frame, Frame)), LayerKeys>,
-    spaced: Stage<(Spacing, LayerJoints), Spaced>,
+    /// The settings include the koma that are timed; the others show the source.
+    spaced: Stage<(ByPassage<Spacing>, ByPassage<bool>, LayerJoints), Spaced>,
     stills: Stage<(), Stills>,
-    omitted: Stage<(Omission, Course), Omitted>,
+    omitted: Stage<(ByPassage<Omission>, Course), Omitted>,
 }
 
 /// A choice of keys, with or without a person's corrections.
@@ -407,16 +408,21 @@ impl LayerStages {
         &mut self,
         measured: &Measured<'_>,
         joints: &LayerJoints,
-        recipe: &Recipe,
+        timing: LayerTiming,
         later: &[usize],
     ) -> Result<(), Error> {
         let (reference, chords) = (self.reference.output(), self.chords.output());
         let inputs = (measured.clip, self.keys.output(), reference, chords);
-        let settings = (recipe.spacing.clone(), joints.clone());
-        self.spaced.make(inputs, settings, |(clip, keys, reference, chords), (spacing, joints)| {
+        let LayerTiming { spacing, omission, timed } = timing;
+        let on = spacing.map(|own| own.on);
+        let settings = (spacing, timed, joints.clone());
+        self.spaced.make(inputs, settings, |(clip, keys, reference, chords), settings| {
+            let (spacing, timed, joints) = settings;
             let (skeleton, pace) = (clip.skeleton(), Pace::new(&reference).with_acting(&chords));
             let koma = clip.rate().koma_from_frames(clip.len(), reference.clock().koma_rate);
-            named(spacing.place(&keys, skeleton, reference.clock(), koma, &pace), joints, skeleton)
+            let clock = reference.clock();
+            let spaced = spacing.place_within(timed, &keys, skeleton, clock, koma, &pace);
+            named(spaced, joints, skeleton)
         });
         let spaced = self.spaced.output();
         let inputs = (measured.clip, self.reference.output(), spaced);
@@ -430,13 +436,13 @@ impl LayerStages {
             }
         });
         let course = Course {
-            on: recipe.spacing.on,
+            on,
             later: later.to_vec(),
-            gaits: spaced.gaits.clone(),
+            kept: spaced.gaits.iter().chain(&spaced.source).cloned().collect(),
             height: self.reference.output().height(),
         };
         let inputs = (spaced, self.stills.output());
-        self.omitted.try_make(inputs, (recipe.omission, course), |inputs, settings| {
+        self.omitted.try_make(inputs, (omission, course), |inputs, settings| {
             let ((spaced, stills), (omission, course)) = (inputs, settings);
             omission.apply_to(&spaced.layer, &stills, course)
         })

@@ -2,6 +2,7 @@
 
 mod local;
 mod looped;
+mod scoped;
 pub(crate) mod walking;
 
 use proptest::prelude::*;

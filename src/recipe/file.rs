@@ -1,5 +1,7 @@
 //! Recipe files (ファイル): TOML with a comment for every knob, and a person's corrections beside them.
 
+mod scoped;
+
 use std::collections::BTreeSet;
 use std::ops::Range;
 
@@ -9,6 +11,7 @@ use toml::de::{DeTable, DeValue};
 use toml::{Spanned, Value};
 
 use super::knobs::{KNOBS, unknown};
+use super::scopes::Scope;
 use super::{Footage, Knob, Recipe, Who};
 use crate::edits::Edits;
 use crate::error::Error;
@@ -62,6 +65,7 @@ impl Recipe {
         // Footage is for the studio alone; parsing it here reports its errors all the same.
         take_footage(text, &mut table)?;
         let mut file = File { text, recipe: self.clone(), named: BTreeSet::new() };
+        file.take_scopes(&mut table)?;
         file.take("", &table)?;
         Ok((file.recipe, edits))
     }
@@ -72,6 +76,7 @@ impl Recipe {
             "# A genga recipe: every setting of the chain. What is not named keeps its default.\n\
              # Lengths of time are source frames (20) or seconds (\"0.2s\").\n",
         );
+        text.push_str(&self.scopes.written_outside());
         let mut section = None;
         for (knob, (_, value)) in KNOBS.iter().zip(self.settings()) {
             let (inside, field) = match knob.who {
@@ -94,6 +99,7 @@ impl Recipe {
                 text.push_str(&self.written_weights());
             }
         }
+        text.push_str(&self.scopes.written());
         if !edits.is_empty() {
             text.push_str("\n# Corrections by a person.\n");
             let edits = toml::to_string(&Corrections { edits }).unwrap_or_default();
@@ -194,7 +200,8 @@ impl File<'_> {
 
 /// Whether a setting of this name exists.
 fn is_known(name: &str) -> bool {
-    name.starts_with(WEIGHTS) || Knob::find(name).is_ok()
+    let knob = Scope::split(name).ok().flatten().map_or(name, |(_, knob)| knob);
+    name.starts_with(WEIGHTS) || Knob::find(knob).is_ok()
 }
 
 /// Whether this name is a section that holds settings.
@@ -250,6 +257,12 @@ mod tests {
             ("keys.weights.odd \"name\" = 1", "0.1"),
             ("spacing.inbetweens", "3"),
             ("omission.max_hold", "5"),
+            ("腕/spacing.on", "1-3"),
+            ("A/keys.min_price", "12"),
+            ("120..240:spacing.on", "1"),
+            ("120..240:omission.naka_nashi", "4%"),
+            ("腕/90..:spacing.inbetweens", "none"),
+            ("outside", "source"),
         ] {
             let before = recipe.clone();
             recipe.set(name, value).unwrap();

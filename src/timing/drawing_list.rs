@@ -24,7 +24,7 @@ pub(super) struct Link {
     pub(super) kept: bool,
     /// Whether the body hardly moves there, before any omission. A turn in the midst of a swing is not a pose to hold.
     is_slow: bool,
-    /// Whether the drawing begins in a gait and keeps its length.
+    /// Whether the drawing begins on a koma that is [kept](Course::kept), and keeps its length.
     pub(super) paced: bool,
     /// The interval that the drawing lies in or opens, an index into [`Strip::intervals`].
     pub(super) interval: usize,
@@ -32,6 +32,8 @@ pub(super) struct Link {
     pub(super) given: usize,
     /// Number of koma that naka-nashi took from the drawing while it stayed.
     pub(super) taken: usize,
+    /// Most koma that it may grow to.
+    pub(super) bound: usize,
     /// Number of drawings after it that koma-dori replaced by it.
     pub(super) held_for: usize,
     /// Number of drawings just before it that naka-nashi left out.
@@ -44,18 +46,15 @@ pub(super) struct Strip<'a> {
     pub(super) links: Vec<Link>,
     /// Index ranges of a drawing that keeps its place and those in transit up to the next such one.
     pub(super) intervals: Vec<Range<usize>>,
-    /// Most koma that an exposure may grow to.
-    pub(super) bound: usize,
     /// Whether naka-nashi takes single koma, as Algorithm 1 does: on a sheet on ones without genga.
     pub(super) by_koma: bool,
     /// Number of drawings that are left.
     pub(super) drawings: usize,
-    /// Number of drawings that never go.
-    kept: usize,
 }
 
 impl<'a> Strip<'a> {
-    /// Links the drawings of a layer and measures each pair of neighbours once.
+    /// Links the drawings of a layer and measures each pair of neighbours once. `bound` gives the most koma to which the
+    /// drawing of a koma may grow.
     ///
     /// # Errors
     /// [`Error::Clip`] unless the exposures show each drawing once, in order, and there is a still
@@ -63,18 +62,18 @@ impl<'a> Strip<'a> {
     pub(super) fn new(
         layer: &Layer,
         stills: &'a Stills,
-        bound: usize,
+        bound: impl Fn(usize) -> usize,
         course: &Course,
     ) -> Result<Self, Error> {
         check(layer, stills)?;
-        let is_in_gait = |begin| course.gaits.iter().any(|gait| gait.contains(&begin));
+        let is_kept = |begin| course.kept.iter().any(|koma| koma.contains(&begin));
         let count = layer.drawings.len();
         let mut links: Vec<Link> = Vec::with_capacity(count);
         let mut intervals: Vec<Range<usize>> = Vec::new();
         for (index, (drawing, (begin, exposure))) in
             layer.drawings.iter().zip(layer.timed()).enumerate()
         {
-            let paced = is_in_gait(begin);
+            let paced = is_kept(begin);
             // The first and the last drawing stay, whatever their role.
             let kept = drawing.role.is_kept() || paced || index == 0 || index + 1 == count;
             // A fill lies in transit. The next interval begins where the body turns, rests or comes to an end.
@@ -94,6 +93,7 @@ impl<'a> Strip<'a> {
                 paced,
                 is_slow: false,
                 interval,
+                bound: bound(begin),
                 given: 0,
                 taken: 0,
                 held_for: 0,
@@ -101,16 +101,16 @@ impl<'a> Strip<'a> {
             });
         }
         let kept = links.iter().filter(|link| link.kept).count();
-        let by_koma = course.on == On::every(1) && kept <= 2;
-        Ok(Self { stills, links, intervals, bound, by_koma, drawings: count, kept })
+        let by_koma = course.on.values().all(|on| *on == On::every(1)) && kept <= 2;
+        Ok(Self { stills, links, intervals, by_koma, drawings: count })
     }
 
     /// Returns the number of koma that naka-nashi may still give to a drawing.
     pub(super) fn room(&self, drawing: usize) -> usize {
-        let Link { given, koma, interval, paced, is_slow, .. } = self.links[drawing];
+        let Link { given, koma, interval, paced, is_slow, bound, .. } = self.links[drawing];
         match () {
             () if paced => 0,
-            () if self.by_koma => self.room_of(given, koma),
+            () if self.by_koma => room_of(given, koma, bound),
             // The drawing that opens an interval is held, and those that follow come later: a snap.
             () if drawing == self.intervals[interval].start && is_slow => {
                 MOST_LENGTHENINGS.saturating_sub(given)
@@ -119,15 +119,10 @@ impl<'a> Strip<'a> {
         }
     }
 
-    /// Returns the room on ones of a drawing lengthened `given` times that stays for `koma`.
-    pub(super) fn room_of(&self, given: usize, koma: usize) -> usize {
-        MOST_LENGTHENINGS.saturating_sub(given).min(self.bound.saturating_sub(koma))
-    }
-
     /// Marks each of an action's drawings at which the body hardly moves: it arrives or sets out no faster than
     /// [usual](Self::usual_way).
-    pub(super) fn tell_slow(&mut self, drawings: Range<usize>, usual: f64) {
-        for at in drawings {
+    pub(super) fn tell_slow(&mut self, drawings: &[Range<usize>], usual: f64) {
+        for at in drawings.iter().cloned().flatten() {
             let out = self.links.get(self.links[at].after).map_or(0.0, |next| next.step);
             // Compares roots on both sides, as the median is a root; squared again it might differ.
             self.links[at].is_slow = self.links[at].step.min(out).sqrt() <= usual;
@@ -143,9 +138,10 @@ impl<'a> Strip<'a> {
         ways.get(ways.len() / 2).copied().unwrap_or(0.0)
     }
 
-    /// Returns the number of inbetweens that are left.
-    pub(super) fn inbetweens(&self) -> usize {
-        self.drawings - self.kept
+    /// Returns the number of inbetweens that are left among some drawings.
+    pub(super) fn inbetweens(&self, has: impl Fn(usize) -> bool) -> usize {
+        let left = |(at, link): &(usize, &Link)| link.koma > 0 && !link.kept && has(*at);
+        self.links.iter().enumerate().filter(left).count()
     }
 
     /// Removes an inbetween from the list and returns its koma; its neighbours are measured anew.
@@ -178,6 +174,11 @@ impl<'a> Strip<'a> {
         }
         left
     }
+}
+
+/// Returns the room on ones of a drawing lengthened `given` times that stays for `koma` and may grow to `bound`.
+pub(super) fn room_of(given: usize, koma: usize, bound: usize) -> usize {
+    MOST_LENGTHENINGS.saturating_sub(given).min(bound.saturating_sub(koma))
 }
 
 fn with_reasons(drawing: &Drawing, link: &Link) -> Drawing {

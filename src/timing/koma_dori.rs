@@ -12,17 +12,25 @@ pub(super) struct Replaced {
     pub(super) shortfall: Option<Shortfall>,
 }
 
-/// Replaces `count` drawings by the one before them, the smallest movements first; none with an SSD above `small`.
-pub(super) fn run(count: usize, small: f64, strip: &mut Strip<'_>) -> Replaced {
+/// Replaces `count` of some drawings by the one before them, the smallest movements first; none with an SSD above
+/// `small`.
+pub(super) fn run(
+    count: usize,
+    small: f64,
+    has: impl Fn(usize) -> bool,
+    strip: &mut Strip<'_>,
+) -> Replaced {
     let mut replaced = Replaced::default();
     let mut refused = false;
     if count == 0 {
         return replaced;
     }
-    let mut smallest = Tournament::new(strip.links.iter().map(smallness));
+    let own = |at: usize, link: &Link| if has(at) { smallness(link) } else { OUT };
+    let mut smallest =
+        Tournament::new(strip.links.iter().enumerate().map(|(at, link)| own(at, link)));
     while replaced.gone.len() < count {
         let Some((drawing, step)) = smallest.best() else {
-            replaced.shortfall = Some(why_not_more(strip, refused));
+            replaced.shortfall = Some(why_not_more(strip, &has, refused));
             break;
         };
         if step > small {
@@ -32,7 +40,7 @@ pub(super) fn run(count: usize, small: f64, strip: &mut Strip<'_>) -> Replaced {
         smallest.set(drawing, OUT);
         let Link { before, after, koma, .. } = strip.links[drawing];
         // The refusal is final: the drawing before only grows, and so does the distance to it.
-        if strip.links[before].koma + koma > strip.bound {
+        if strip.links[before].koma + koma > strip.links[before].bound {
             refused = true;
             continue;
         }
@@ -40,14 +48,14 @@ pub(super) fn run(count: usize, small: f64, strip: &mut Strip<'_>) -> Replaced {
         strip.links[before].held_for += 1;
         replaced.gone.push(drawing);
         smallest.set(before, OUT);
-        smallest.set(after, smallness(&strip.links[after]));
+        smallest.set(after, own(after, &strip.links[after]));
     }
     replaced
 }
 
 /// Explains why no more were replaced; `refused` says whether a hold would have grown too long.
-fn why_not_more(strip: &Strip<'_>, refused: bool) -> Shortfall {
-    match strip.links.iter().any(|link| link.koma > 0 && !link.kept) {
+fn why_not_more(strip: &Strip<'_>, has: impl Fn(usize) -> bool, refused: bool) -> Shortfall {
+    match strip.inbetweens(has) > 0 {
         false => Shortfall::NoneLeft,
         true if refused => Shortfall::NoRoom,
         true => Shortfall::AllHolds,

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use crate::timing::drawing_list::Strip;
+use crate::timing::drawing_list::{Strip, room_of};
 use crate::timing::report::Shortfall;
 use crate::timing::tournament::{OUT, Tournament};
 
@@ -10,22 +10,24 @@ use crate::timing::tournament::{OUT, Tournament};
 pub(super) struct NakaNashi {
     /// How much to leave out of each action.
     pub(super) quotas: Vec<Quota>,
-    /// Whether the freed koma are given to other drawings.
-    pub(super) keep_length: bool,
-    /// Whether all drawings are chosen by the initial distances.
-    pub(super) all_at_once: bool,
 }
 
-/// How much to leave out of an action.
+/// How much to leave out of an action, or of its part that has settings of its own.
 pub(super) struct Quota {
-    /// The drawings of the action.
-    pub(super) drawings: Range<usize>,
+    /// The drawings of the part.
+    pub(super) drawings: Vec<Range<usize>>,
     /// Number of drawings to leave out; of koma, on a sheet on ones without genga.
     pub(super) count: usize,
+    /// Whether that number was asked for. A share is an upper bound.
+    pub(super) is_count: bool,
     /// The median step of the action's drawings.
     pub(super) usual: f64,
     /// The SSD from which on a movement is markedly fast.
     pub(super) fast: f64,
+    /// Whether the freed koma are given to other drawings.
+    pub(super) keep_length: bool,
+    /// Whether all drawings are chosen by the initial distances.
+    pub(super) all_at_once: bool,
 }
 
 /// The result of the stage.
@@ -51,7 +53,7 @@ impl NakaNashi {
         if self.count() == 0 {
             return Taken::default();
         }
-        let mut stage = Stage::new(self, strip);
+        let mut stage = Stage::new(strip);
         for quota in &self.quotas {
             stage.fill(quota);
         }
@@ -63,7 +65,6 @@ impl NakaNashi {
 }
 
 struct Stage<'a, 'b> {
-    rules: &'a NakaNashi,
     strip: &'a mut Strip<'b>,
     /// Inbetweens that may go, by −SSD to the one before.
     fastest: Tournament,
@@ -79,7 +80,7 @@ struct Stage<'a, 'b> {
 }
 
 impl<'a, 'b> Stage<'a, 'b> {
-    fn new(rules: &'a NakaNashi, strip: &'a mut Strip<'b>) -> Self {
+    fn new(strip: &'a mut Strip<'b>) -> Self {
         let count = strip.links.len();
         let live = |drawing: &usize| strip.links[*drawing].koma > 0;
         let room = |range: &Range<usize>| {
@@ -91,7 +92,6 @@ impl<'a, 'b> Stage<'a, 'b> {
         };
         let slowness = |drawing| if live(&drawing) { slowness(strip, drawing) } else { OUT };
         Self {
-            rules,
             fastest: Tournament::new((0..count).map(speed)),
             slowest: Tournament::new((0..count).map(slowness)),
             room: strip.intervals.iter().map(room).collect(),
@@ -106,34 +106,39 @@ impl<'a, 'b> Stage<'a, 'b> {
     fn fill(&mut self, quota: &Quota) {
         let enough = self.taken.done.saturating_add(quota.count);
         while self.taken.done < enough {
-            let shortfall = match self.fastest.best_in(quota.drawings.clone()) {
+            let shortfall = match best(&self.fastest, &quota.drawings) {
                 None => self.nothing_left(&quota.drawings),
                 Some((_, 0.0)) => Shortfall::NoMotion,
                 Some((_, speed)) if -speed < quota.fast => self.none_fast(&quota.drawings),
                 Some((drawing, _)) => {
-                    self.take_if_it_fits(drawing);
+                    self.take_if_it_fits(drawing, quota);
                     continue;
                 }
             };
             // Of several actions, the first gives the reason.
-            self.taken.shortfall.get_or_insert(shortfall);
+            if quota.is_count {
+                self.taken.shortfall.get_or_insert(shortfall);
+            }
             break;
         }
     }
 
-    fn take_if_it_fits(&mut self, drawing: usize) {
-        if self.rules.keep_length && !self.fits(drawing) {
+    fn take_if_it_fits(&mut self, drawing: usize, rules: &Quota) {
+        if rules.keep_length && !self.fits(drawing) {
             self.barred[drawing] = true;
             self.fastest.set(drawing, OUT);
             return;
         }
         let interval = self.strip.links[drawing].interval;
-        let freed = if self.stays(drawing) { self.shorten(drawing) } else { self.omit(drawing) };
+        let freed = match self.stays(drawing) {
+            true => self.shorten(drawing, rules),
+            false => self.omit(drawing, rules),
+        };
         self.taken.done += 1;
-        if self.rules.keep_length {
+        if rules.keep_length {
             self.owed[interval] += freed;
         }
-        if !self.rules.all_at_once {
+        if !rules.all_at_once {
             self.settle(interval);
         }
     }
@@ -148,7 +153,7 @@ impl<'a, 'b> Stage<'a, 'b> {
         let link = &self.strip.links[drawing];
         let others = self.room[link.interval] - self.strip.room(drawing);
         let (freed, own) = if self.stays(drawing) {
-            (1, self.strip.room_of(link.given, link.koma - 1))
+            (1, room_of(link.given, link.koma - 1, link.bound))
         } else {
             (link.koma, 0)
         };
@@ -156,7 +161,7 @@ impl<'a, 'b> Stage<'a, 'b> {
     }
 
     /// Takes one koma from a drawing, as Algorithm 1 does with the first of several equal frames.
-    fn shorten(&mut self, drawing: usize) -> usize {
+    fn shorten(&mut self, drawing: usize, rules: &Quota) -> usize {
         let before = self.strip.room(drawing);
         let link = &mut self.strip.links[drawing];
         link.koma -= 1;
@@ -164,14 +169,14 @@ impl<'a, 'b> Stage<'a, 'b> {
         let interval = link.interval;
         self.room[interval] = self.room[interval] - before + self.strip.room(drawing);
         self.slowest.set(drawing, slowness(self.strip, drawing));
-        if self.rules.all_at_once {
+        if rules.all_at_once {
             self.fastest.set(drawing, OUT);
         }
         1
     }
 
     /// Removes a whole drawing.
-    fn omit(&mut self, drawing: usize) -> usize {
+    fn omit(&mut self, drawing: usize, rules: &Quota) -> usize {
         let link = &self.strip.links[drawing];
         let (before, after) = (link.before, link.after);
         self.room[link.interval] -= self.strip.room(drawing);
@@ -182,7 +187,7 @@ impl<'a, 'b> Stage<'a, 'b> {
         self.slowest.set(drawing, OUT);
         self.slowest.set(before, slowness(self.strip, before));
         let next = &self.strip.links[after];
-        if !(self.rules.all_at_once || next.kept || self.barred[after]) {
+        if !(rules.all_at_once || next.kept || self.barred[after]) {
             self.fastest.set(after, -next.step);
         }
         freed
@@ -203,17 +208,23 @@ impl<'a, 'b> Stage<'a, 'b> {
         }
     }
 
-    fn nothing_left(&self, drawings: &Range<usize>) -> Shortfall {
+    fn nothing_left(&self, drawings: &[Range<usize>]) -> Shortfall {
         if self.any_barred(drawings) { Shortfall::NoRoom } else { Shortfall::NoneLeft }
     }
 
-    fn none_fast(&self, drawings: &Range<usize>) -> Shortfall {
+    fn none_fast(&self, drawings: &[Range<usize>]) -> Shortfall {
         if self.any_barred(drawings) { Shortfall::NoRoom } else { Shortfall::NoneFast }
     }
 
-    fn any_barred(&self, drawings: &Range<usize>) -> bool {
-        self.barred[drawings.clone()].contains(&true)
+    fn any_barred(&self, drawings: &[Range<usize>]) -> bool {
+        drawings.iter().any(|range| self.barred[range.clone()].contains(&true))
     }
+}
+
+/// Returns the drawing with the least value in some ranges; of equal ones, the earliest.
+fn best(of: &Tournament, drawings: &[Range<usize>]) -> Option<(usize, f64)> {
+    let best = drawings.iter().filter_map(|range| of.best_in(range.clone()));
+    best.reduce(|a, b| if b.1 < a.1 { b } else { a })
 }
 
 /// Returns the SSD to the next drawing, by which the next koma is given; [`OUT`] if the drawing can take none.

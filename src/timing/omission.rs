@@ -10,7 +10,7 @@ use crate::sheet::Layer;
 use crate::timing::drawing_list::Strip;
 use crate::timing::naka_nashi::{NakaNashi, Quota};
 use crate::timing::report::{Gone, OmissionReport, Shortfall, StageReport};
-use crate::timing::{Amount, On, Stills, koma_dori};
+use crate::timing::{Amount, ByPassage, On, Stills, koma_dori};
 
 #[cfg(test)]
 mod tests;
@@ -67,18 +67,20 @@ choices!(Order { NakaNashiFirst: "naka_nashi_first", KomaDoriFirst: "koma_dori_f
 #[derive(Debug, Clone, PartialEq)]
 pub struct Course {
     /// Koma per drawing of the sheet.
-    pub on: On,
+    pub on: ByPassage<On>,
     /// The koma at which all actions but the first begin, in order.
     pub later: Vec<usize>,
-    /// Koma of gaits (歩き). No drawing in them is left out or held, as each step would differ.
-    pub gaits: Vec<Range<usize>>,
+    /// Koma in which no drawing is left out or held: those of gaits (歩き), as each step would differ, and those that
+    /// show the source as it is.
+    pub kept: Vec<Range<usize>>,
     /// Height of the body in the file's unit; infinite if unknown, so that every movement counts as small.
     pub height: f64,
 }
 
 impl Default for Course {
     fn default() -> Self {
-        Self { on: On::every(1), later: Vec::new(), gaits: Vec::new(), height: f64::INFINITY }
+        let on = On::every(1).into();
+        Self { on, later: Vec::new(), kept: Vec::new(), height: f64::INFINITY }
     }
 }
 
@@ -200,7 +202,7 @@ impl Omission {
     /// # Ok::<(), genga::Error>(())
     /// ```
     pub fn apply(&self, layer: &Layer, stills: &Stills, on: usize) -> Result<Omitted, Error> {
-        self.apply_to(layer, stills, &Course { on: On::every(on), ..Course::default() })
+        self.apply_to(layer, stills, &Course { on: On::every(on).into(), ..Course::default() })
     }
 
     /// Leaves drawings of a layer out. Genga, pinned and end drawings stay; in gaits, all drawings do. With
@@ -219,64 +221,7 @@ impl Omission {
         stills: &Stills,
         course: &Course,
     ) -> Result<Omitted, Error> {
-        self.validate()?;
-        if !course.later.is_sorted() {
-            return Err(Error::clip("actions must begin one after the other: sort their koma"));
-        }
-        let bound = self.max_hold.max(course.on.least.saturating_mul(2));
-        let mut strip = Strip::new(layer, stills, bound, course)?;
-        let mut report = OmissionReport::default();
-        match self.order {
-            Order::NakaNashiFirst => {
-                self.leave_out(layer, course, &mut strip, &mut report);
-                self.hold(layer, course, &mut strip, &mut report);
-            }
-            Order::KomaDoriFirst => {
-                self.hold(layer, course, &mut strip, &mut report);
-                self.leave_out(layer, course, &mut strip, &mut report);
-            }
-        }
-        Ok(Omitted { layer: strip.into_layer(layer), report })
-    }
-
-    fn leave_out(
-        &self,
-        layer: &Layer,
-        course: &Course,
-        strip: &mut Strip<'_>,
-        report: &mut OmissionReport,
-    ) {
-        let quotas = self.quotas(layer, course, strip);
-        quotas.iter().for_each(|quota| strip.tell_slow(quota.drawings.clone(), quota.usual));
-        let stage =
-            NakaNashi { quotas, keep_length: self.keep_length, all_at_once: self.all_at_once };
-        let taken = stage.run(strip);
-        report.lengthened = taken.given;
-        report.naka_nashi = StageReport {
-            asked: stage.count(),
-            done: taken.done,
-            gone: named(layer, &taken.gone),
-            shortfall: unmet(self.naka_nashi, taken.shortfall),
-        };
-    }
-
-    /// Computes how much naka-nashi leaves out of each action; a drawing belongs to the action in which it begins.
-    fn quotas(&self, layer: &Layer, course: &Course, strip: &Strip<'_>) -> Vec<Quota> {
-        let begins: Vec<usize> = layer.timed().map(|(begin, _)| begin).collect();
-        let length = layer.length();
-        let mut bounds = vec![0];
-        bounds.extend(course.later.iter().filter(|koma| (1..length).contains(*koma)));
-        bounds.dedup();
-        bounds.push(length);
-        let drawing = |koma: usize| begins.partition_point(|begin| *begin < koma);
-        let quota = |bounds: &[usize]| {
-            let drawings = drawing(bounds[0])..drawing(bounds[1]);
-            let fast = if strip.by_koma { 0.0 } else { self.fast };
-            let usual = strip.usual_way(drawings.clone());
-            let count = self.count_in(bounds[1] - bounds[0]);
-            Quota { drawings, count, usual, fast: (fast * usual) * (fast * usual) }
-        };
-        bounds.windows(2).map(quota).collect()
+        ByPassage::from(*self).apply_to(layer, stills, course)
     }
 
     /// Returns the number of drawings that naka-nashi leaves out of an action of `koma` koma.
@@ -286,28 +231,148 @@ impl Omission {
             share => share.resolve(koma).min(MOST_BY_SHARE),
         }
     }
+}
 
-    fn hold(
+impl ByPassage<Omission> {
+    /// Like [`Omission::apply_to`]. A drawing is left out or held as on its first koma. Passages of equal settings share
+    /// one number of drawings; the order of the stages is that of the first koma.
+    ///
+    /// # Errors
+    /// As for [`Omission::apply_to`].
+    pub fn apply_to(
         &self,
         layer: &Layer,
+        stills: &Stills,
         course: &Course,
-        strip: &mut Strip<'_>,
-        report: &mut OmissionReport,
-    ) {
-        let count = self.koma_dori.resolve(strip.inbetweens());
-        let small = self.small / 100.0 * course.height;
+    ) -> Result<Omitted, Error> {
+        self.values().try_for_each(Omission::validate)?;
+        if !course.later.is_sorted() {
+            return Err(Error::clip("actions must begin one after the other: sort their koma"));
+        }
+        let bound =
+            |koma: usize| self.at(koma).max_hold.max(course.on.at(koma).least.saturating_mul(2));
+        let mut strip = Strip::new(layer, stills, bound, course)?;
+        let parts = self.parts(layer);
+        let mut report = OmissionReport::default();
+        match self.at(0).order {
+            Order::NakaNashiFirst => {
+                leave_out(&parts, layer, course, &mut strip, &mut report);
+                hold(&parts, layer, course, &mut strip, &mut report);
+            }
+            Order::KomaDoriFirst => {
+                hold(&parts, layer, course, &mut strip, &mut report);
+                leave_out(&parts, layer, course, &mut strip, &mut report);
+            }
+        }
+        Ok(Omitted { layer: strip.into_layer(layer), report })
+    }
+
+    /// Returns the parts of a layer that have equal settings.
+    fn parts(&self, layer: &Layer) -> Vec<Part> {
+        let mut parts: Vec<Part> = Vec::new();
+        let ends = self.changes().chain([layer.length()]);
+        let begins = std::iter::once(0).chain(self.changes());
+        for (koma, settings) in begins.zip(ends).map(|(begin, end)| begin..end).zip(self.values()) {
+            match parts.iter_mut().find(|part| part.settings == *settings) {
+                Some(part) => part.koma.push(koma),
+                None => parts.push(Part { settings: *settings, koma: vec![koma] }),
+            }
+        }
+        parts
+    }
+}
+
+/// The part of a layer for which one setting of omission holds.
+struct Part {
+    settings: Omission,
+    koma: Vec<Range<usize>>,
+}
+
+impl Part {
+    /// Returns the koma of the part within some koma.
+    fn within(&self, koma: &Range<usize>) -> impl Iterator<Item = Range<usize>> {
+        let both = |own: &Range<usize>| own.start.max(koma.start)..own.end.min(koma.end);
+        self.koma.iter().map(both).filter(|koma| !koma.is_empty())
+    }
+}
+
+fn leave_out(
+    parts: &[Part],
+    layer: &Layer,
+    course: &Course,
+    strip: &mut Strip<'_>,
+    report: &mut OmissionReport,
+) {
+    let quotas = quotas(parts, layer, course, strip);
+    quotas.iter().for_each(|quota| strip.tell_slow(&quota.drawings, quota.usual));
+    let stage = NakaNashi { quotas };
+    let taken = stage.run(strip);
+    report.lengthened = taken.given;
+    report.naka_nashi = StageReport {
+        asked: stage.count(),
+        done: taken.done,
+        gone: named(layer, &taken.gone),
+        shortfall: taken.shortfall,
+    };
+}
+
+/// Computes how much naka-nashi leaves out of each action; a drawing belongs to the action in which it begins.
+fn quotas(parts: &[Part], layer: &Layer, course: &Course, strip: &Strip<'_>) -> Vec<Quota> {
+    let begins: Vec<usize> = layer.timed().map(|(begin, _)| begin).collect();
+    let length = layer.length();
+    let mut bounds = vec![0];
+    bounds.extend(course.later.iter().filter(|koma| (1..length).contains(*koma)));
+    bounds.dedup();
+    bounds.push(length);
+    let drawing = |koma: usize| begins.partition_point(|begin| *begin < koma);
+    let drawings = |koma: Range<usize>| drawing(koma.start)..drawing(koma.end);
+    let quota = |bounds: &[usize]| {
+        let action = bounds[0]..bounds[1];
+        let usual = strip.usual_way(drawings(action.clone()));
+        parts.iter().filter_map(move |part| {
+            let Omission { naka_nashi, fast, keep_length, all_at_once, .. } = part.settings;
+            let own: Vec<Range<usize>> = part.within(&action).collect();
+            let koma: usize = own.iter().map(ExactSizeIterator::len).sum();
+            let fast = if strip.by_koma { 0.0 } else { fast };
+            (koma > 0).then(|| Quota {
+                drawings: own.into_iter().map(drawings).collect(),
+                count: part.settings.count_in(koma),
+                is_count: matches!(naka_nashi, Amount::Count(_)),
+                usual,
+                fast: (fast * usual) * (fast * usual),
+                keep_length,
+                all_at_once,
+            })
+        })
+    };
+    bounds.windows(2).flat_map(quota).collect()
+}
+
+fn hold(
+    parts: &[Part],
+    layer: &Layer,
+    course: &Course,
+    strip: &mut Strip<'_>,
+    report: &mut OmissionReport,
+) {
+    let begins: Vec<usize> = layer.timed().map(|(begin, _)| begin).collect();
+    let mut stage = StageReport::default();
+    for part in parts {
+        let has = |drawing: usize| part.koma.iter().any(|koma| koma.contains(&begins[drawing]));
+        let count = part.settings.koma_dori.resolve(strip.inbetweens(has));
+        let small = part.settings.small / 100.0 * course.height;
         let small = match strip.by_koma {
             true => f64::INFINITY,
             false => small * small * strip.stills.joints() as f64,
         };
-        let replaced = koma_dori::run(count, small, strip);
-        report.koma_dori = StageReport {
-            asked: count,
-            done: replaced.gone.len(),
-            gone: named(layer, &replaced.gone),
-            shortfall: unmet(self.koma_dori, replaced.shortfall),
-        };
+        let replaced = koma_dori::run(count, small, has, strip);
+        stage.asked = stage.asked.saturating_add(count);
+        stage.done += replaced.gone.len();
+        stage.gone.extend(named(layer, &replaced.gone));
+        let shortfall = unmet(part.settings.koma_dori, replaced.shortfall);
+        stage.shortfall = stage.shortfall.or(shortfall);
     }
+    report.koma_dori = stage;
 }
 
 /// Keeps the reason for doing less only if a count was asked for; a share is an upper bound.

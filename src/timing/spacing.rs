@@ -1,6 +1,7 @@
 //! Spacing (詰め): inbetweens between keys, evenly spaced in time and showing poses crowded towards the keys [KT11 §3.4].
 
 mod interval;
+mod outside;
 mod row;
 mod station;
 mod steps;
@@ -12,6 +13,7 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use self::interval::Interval;
+use self::outside::Timed;
 use self::row::Rules;
 use self::station::{Station, koma_before, stations};
 use self::steps::Steps;
@@ -23,6 +25,7 @@ use crate::knob::{Knobs, choices, knob, knobs};
 use crate::motion::Skeleton;
 use crate::sheet::{Exposure, Layer, Reason, Role};
 use crate::time::{Clock, Frame};
+use crate::timing::ByPassage;
 use crate::timing::koma_per_drawing::{On, Pace, STAY};
 
 /// The pose that an inbetween shows.
@@ -90,6 +93,8 @@ pub struct Spaced {
     pub did_not_fit: usize,
     /// The koma of gaits (歩き), from first to last contact. Every step in them has the same drawings.
     pub gaits: Vec<Range<usize>>,
+    /// The koma outside of passages on which the source is shown as it is.
+    pub source: Vec<Range<usize>>,
 }
 
 /// The weight that moves an inbetween to where a person drags it.
@@ -202,21 +207,86 @@ impl Spacing {
         koma: usize,
         pace: &Pace<'_>,
     ) -> Spaced {
-        let still = Still::new(&layer.rests, clock, self.drift, pace);
-        let least = |koma: usize| self.least(koma, pace);
-        let steps = Steps::new(&layer.gaits, koma, self, pace);
-        let stations = stations(&layer.keys, &steps, (clock, koma), least);
-        let names: Vec<Arc<str>> =
-            skeleton.joints.iter().map(|joint| joint.name.as_str().into()).collect();
-        let (walls, holds_end) = (&layer.walls[..], layer.holds_end);
-        let rules = Rules { spacing: self, clock, walls, holds_end, pace, still, steps };
-        rules.lay_out(&stations, koma, &names)
+        ByPassage::from(self.clone()).place(layer, skeleton, clock, koma, pace)
     }
 
     /// Finds the key weight that takes the inbetween of a koma to a place, or as near as `max_shift` allows.
     ///
     /// `spaced` is the layer before omission, and `koma` counts on it. `None` if no inbetween can stand there, in the
     /// exact middle of an interval, and on the side of a clip end that is not a key.
+    pub fn pulled(
+        &self,
+        layer: &LayerKeys,
+        spaced: &Layer,
+        clock: Clock,
+        koma: usize,
+        place: f64,
+    ) -> Option<Pull> {
+        ByPassage::from(self.clone()).pulled(layer, spaced, clock, koma, place)
+    }
+
+    /// Returns a predicate for frames worth a found key on a sheet of `koma` koma. It rejects frames at which a key
+    /// would give way to the drawing of the sheet's end, and those within a rest that show nothing new.
+    pub(crate) fn room<'a>(
+        &self,
+        rests: &[RangeInclusive<Frame>],
+        clock: Clock,
+        koma: usize,
+        pace: &'a Pace<'a>,
+    ) -> impl Fn(Frame) -> bool + use<'a> {
+        let still = Still::new(rests, clock, self.drift.into(), pace);
+        let stay = self.on.stay();
+        // From here on a key would stand too close to the end.
+        let past = if stay > 1 { (koma + 1).saturating_sub(2 * stay) } else { koma };
+        move |frame| {
+            let place = frame.0 as f64;
+            place < clock.place_from_koma(past) && !still.covers(clock.koma_from_place(place))
+        }
+    }
+
+    /// Returns how many koma the drawing of a koma stays.
+    fn stay(&self, koma: usize, pace: &Pace<'_>) -> usize {
+        self.on.from(koma, pace, self.step)
+    }
+}
+
+impl ByPassage<Spacing> {
+    /// Like [`Spacing::place`]. A drawing is spaced as on its first koma. The pull of a key (`weight`, `max_shift`) and
+    /// a fixed number of inbetweens are those of the key's koma.
+    pub fn place(
+        &self,
+        layer: &LayerKeys,
+        skeleton: &Skeleton,
+        clock: Clock,
+        koma: usize,
+        pace: &Pace<'_>,
+    ) -> Spaced {
+        self.place_within(&true.into(), layer, skeleton, clock, koma, pace)
+    }
+
+    /// Like [`ByPassage::place`] on the koma that are `timed`; each of the others shows the source.
+    pub(crate) fn place_within(
+        &self,
+        timed: &ByPassage<bool>,
+        layer: &LayerKeys,
+        skeleton: &Skeleton,
+        clock: Clock,
+        koma: usize,
+        pace: &Pace<'_>,
+    ) -> Spaced {
+        let timed = Timed { koma: timed, clock, length: koma };
+        let still = Still::new(&layer.rests, clock, self.map(|own| own.drift), pace);
+        let least = |koma: usize| self.least(koma, pace);
+        let steps = Steps::new(&layer.gaits, koma, self, pace);
+        let stations = stations(&layer.keys, &steps, timed, least);
+        let names: Vec<Arc<str>> =
+            skeleton.joints.iter().map(|joint| joint.name.as_str().into()).collect();
+        let (walls, holds_end) = (&layer.walls[..], layer.holds_end);
+        let rules = Rules { spacing: self, timed, walls, holds_end, pace, still, steps };
+        rules.lay_out(&stations, &names)
+    }
+
+    /// Like [`Spacing::pulled`].
     pub fn pulled(
         &self,
         layer: &LayerKeys,
@@ -246,7 +316,7 @@ impl Spacing {
                 Role::End if at > 0 => (koma_before(clock, place) + 1).saturating_sub(STAY),
                 Role::End | Role::Inbetween => koma,
             };
-            Station { koma: koma.max(own), place, role: drawing.role, key }
+            Station { koma: koma.max(own), place, role: drawing.role, key, is_border: false }
         };
         let [from, to] = [from, to].map(station);
         let interval = Interval::new(self, &from, &to, &layer.walls, clock);
@@ -255,28 +325,9 @@ impl Spacing {
         Some(Pull { key: key.frame, weight })
     }
 
-    /// Returns a predicate for frames worth a found key on a sheet of `koma` koma. It rejects frames at which a key
-    /// would give way to the drawing of the sheet's end, and those within a rest that show nothing new.
-    pub(crate) fn room<'a>(
-        &self,
-        rests: &[RangeInclusive<Frame>],
-        clock: Clock,
-        koma: usize,
-        pace: &'a Pace<'a>,
-    ) -> impl Fn(Frame) -> bool + use<'a> {
-        let still = Still::new(rests, clock, self.drift, pace);
-        let stay = self.on.stay();
-        // From here on a key would stand too close to the end.
-        let past = if stay > 1 { (koma + 1).saturating_sub(2 * stay) } else { koma };
-        move |frame| {
-            let place = frame.0 as f64;
-            place < clock.place_from_koma(past) && !still.covers(clock.koma_from_place(place))
-        }
-    }
-
     /// Returns how many koma the drawing of a koma stays.
     fn stay(&self, koma: usize, pace: &Pace<'_>) -> usize {
-        self.on.from(koma, pace, self.step)
+        self.at(koma).stay(koma, pace)
     }
 
     /// Returns how many koma it stays at least.

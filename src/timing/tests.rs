@@ -136,7 +136,7 @@ proptest! {
             .map(|(_, shown)| spaced.drawings[shown.drawing].source.place())
             .collect();
         prop_assert_eq!(twitches(&spaced, |place| fast.contains(&place)), NONE, "{:?}", spaced.exposures);
-        let course = Course { on, height: 100.0, ..Course::default() };
+        let course = Course { on: on.into(), height: 100.0, ..Course::default() };
         let stills = stills(&spaced, &places);
         let omitted = omission.apply_to(&spaced, &stills, &course).unwrap().layer;
         prop_assert_eq!(twitches(&omitted, |place| fast.contains(&place)), NONE, "{:?}", omitted.exposures);
@@ -145,6 +145,50 @@ proptest! {
         let held = with_holds(&omitted, &spaced, &holds, clock());
         prop_assert_eq!(twitches(&held, |_| on.least == 1), NONE, "{:?}", held.exposures);
         prop_assert_eq!(held.length(), omitted.length());
+    }
+
+    #[test]
+    fn nothing_stays_for_one_koma_at_the_ends_of_a_passage(
+        keys in layer(),
+        ons in prop::collection::vec(on(), 2..5),
+        begins in prop::collection::btree_set(1..length(), 4),
+        drifts in prop::collection::vec(prop::sample::select(vec![0.0, 1.0]), 4),
+        steps in prop::collection::vec(0.0..30.0, length() - 1),
+        places in prop::collection::vec(0.0..50.0, 7),
+        omissions in prop::collection::vec(omission(), 4),
+    ) {
+        let begins: Vec<usize> = begins.into_iter().take(ons.len() - 1).collect();
+        let ends = begins.iter().skip(1).copied().chain([length()]);
+        let passages: Vec<_> = begins.iter().zip(ends).map(|(begin, end)| *begin..end).collect();
+        let own = |koma: usize| begins.partition_point(|begin| *begin <= koma);
+        let spacing = ByPassage::new(&passages, |koma| {
+            let (on, drift) = (ons[own(koma).min(ons.len() - 1)], drifts[own(koma) % 4]);
+            Spacing { on, drift, ..Spacing::default() }
+        });
+        let pace = Pace::of_steps(steps.into_iter());
+        let spaced = spacing.place(&keys, &Skeleton::default(), clock(), length(), &pace).layer;
+        let begun: Vec<f64> = spaced.drawings.iter().map(|drawing| drawing.source.place()).collect();
+        prop_assert!(begun.is_sorted(), "{:?}", begun);
+        // Near a change, the koma of either side may decide for a drawing that was moved there.
+        let may_be_one = |koma: usize| {
+            let near = koma.saturating_sub(1)..=(koma + 1).min(length() - 1);
+            near.into_iter().any(|koma| spacing.at(koma).on.least == 1)
+        };
+        let ones: Vec<f64> = spaced
+            .timed()
+            .filter(|(begin, _)| may_be_one(*begin))
+            .map(|(_, shown)| spaced.drawings[shown.drawing].source.place())
+            .collect();
+        prop_assert_eq!(twitches(&spaced, |place| ones.contains(&place)), NONE, "{:?}", spaced.exposures);
+        let omission = ByPassage::new(&passages, |koma| {
+            let Omission { order, .. } = omissions[0];
+            Omission { order, all_at_once: false, ..omissions[own(koma) % 4] }
+        });
+        let on = spacing.map(|own| own.on);
+        let course = Course { on, height: 100.0, ..Course::default() };
+        let stills = stills(&spaced, &places);
+        let omitted = omission.apply_to(&spaced, &stills, &course).unwrap().layer;
+        prop_assert_eq!(twitches(&omitted, |place| ones.contains(&place)), NONE, "{:?}", omitted.exposures);
     }
 
     #[test]

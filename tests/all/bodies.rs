@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::f64::consts::FRAC_PI_2;
 
 use genga::edits::Edits;
-use genga::keys::{Key, Layers};
+use genga::keys::Key;
 use genga::motion::{
     Axis, BoneMap, Channel, Clip, Description, Joint, JointId, Landmarks, Skeleton, Stature,
     local_rotation, local_translation, set_local_rotation,
@@ -263,7 +263,7 @@ fn a_layer_of_hair_alone_has_keys_of_its_own() {
     let mut recipe = Recipe::default();
     let layers = "[[layers]]\nname = \"A\"\njoints = [\"Hips\"]\n[[layers]]\nname = \"B\"\njoints = \
                   [\"Hair_0\", \"Hair_1\", \"Hair_2\", \"Hair_3\", \"Hair_4\"]\n";
-    recipe.layers = Layers::parse(layers).unwrap();
+    recipe.take_layers(layers).unwrap();
     let mut engine = Engine::new(haired).unwrap();
     let sheet = engine.run(&recipe, &Edits::default()).unwrap();
     let turns = |layer: usize| sheet.layers().nth(layer).unwrap().body.turns.len();

@@ -11,7 +11,7 @@ use super::headings::{CORRECTIONS, SHEET};
 use super::{files, paths};
 use genga::edits::{Edits, Forbidden, Hold, Move, Pin, Speech, layer_of};
 use genga::error::Error;
-use genga::keys::{Key, Layers, Origin};
+use genga::keys::{Key, Origin};
 use genga::pipeline::{Breakdown, LayerBreakdown};
 use genga::recipe::Recipe;
 use genga::time::Frame;
@@ -24,6 +24,8 @@ pub(super) struct Settings {
     #[arg(long, value_name = "R.toml")]
     pub(super) recipe: Option<PathBuf>,
     /// One setting, over the recipe: --set spacing.on=3 (repeatable).
+    ///
+    /// B/spacing.on=3 sets it in layer B alone.
     #[arg(long, value_name = "KEY=VALUE", value_parser = assignment)]
     pub(super) set: Vec<(String, String)>,
 }
@@ -97,13 +99,13 @@ pub(super) struct Corrections {
     pub(super) pin_column: Option<String>,
 }
 
-/// The cels of the sheet, over the recipe.
+/// The cels and passages of the sheet, over the recipe.
 #[derive(Debug, Clone, Args)]
 pub(super) struct LayerArgs {
     /// Layers (セル) with their own keys: body, limbs, joints, FILE.
     ///
     /// body (one), limbs (trunk with head A, arms B and C, legs D and E), joints (one per moving joint), or a TOML file
-    /// of [[layers]] with name and joints.
+    /// of [[layers]] with name, joints and settings.
     #[arg(long, value_name = "LAYERS", help_heading = SHEET)]
     layers: Option<String>,
     /// The body travels with its drawings (drawings), or on ones.
@@ -120,6 +122,14 @@ pub(super) struct LayerArgs {
     /// Rounds of the loop on the sheet: --loop --cycles 4.
     #[arg(long, value_name = "N", help_heading = SHEET)]
     cycles: Option<String>,
+    /// A setting in a passage: --within 120..240:spacing.on=1 (repeatable).
+    ///
+    /// [LAYER/]A..B[:KEY=VALUE], over source frames A up to but not including B. The later goes over the earlier.
+    #[arg(long, value_name = "A..B:KEY=VALUE", help_heading = SHEET)]
+    within: Vec<String>,
+    /// Outside of the passages: timed as usual (timed), or the take as it is (source).
+    #[arg(long, value_name = "WHAT", help_heading = SHEET)]
+    outside: Option<String>,
 }
 
 pub(super) fn frame(text: &str) -> Result<Frame, String> {
@@ -148,6 +158,12 @@ impl Settings {
         }
         Ok((recipe, edits))
     }
+
+    /// Sets those settings that are of one layer.
+    fn set_layers(&self, recipe: &mut Recipe) -> Result<(), Failure> {
+        let mut of_layers = self.set.iter().filter(|(name, _)| name.contains('/'));
+        of_layers.try_for_each(|(name, value)| Ok(recipe.set(name, value)?))
+    }
 }
 
 impl Corrections {
@@ -155,6 +171,9 @@ impl Corrections {
     pub(super) fn read(&self) -> Result<(Recipe, Edits), Failure> {
         let (mut recipe, mut edits) = self.settings.read(Recipe::default())?;
         self.layers.put(&mut recipe)?;
+        // A file of layers may have settings of its own, and those of the command line go over them.
+        self.settings.set_layers(&mut recipe)?;
+        self.layers.put_passages(&mut recipe)?;
         self.put(&mut edits)?;
         Ok((recipe, edits))
     }
@@ -231,7 +250,7 @@ impl LayerArgs {
         match self.layers.as_deref() {
             None => {}
             Some(word @ ("body" | "limbs" | "joints")) => recipe.set("layers", word)?,
-            Some(file) => recipe.layers = layers_of_file(Path::new(file))?,
+            Some(file) => take_layers(recipe, Path::new(file))?,
         }
         if let Some(word) = &self.root_on {
             recipe.set("root", word)?;
@@ -242,9 +261,22 @@ impl LayerArgs {
         }
         Ok(())
     }
+
+    /// Puts the passages asked for into a recipe.
+    fn put_passages(&self, recipe: &mut Recipe) -> Result<(), Failure> {
+        for text in &self.within {
+            recipe.add_passage(text).map_err(|error| match error {
+                Error::Setting { name, message } if name == "passages" => {
+                    Failure::AskedWrongly(format!("--within: {message}"))
+                }
+                other => other.into(),
+            })?;
+        }
+        self.outside.iter().try_for_each(|word| Ok(recipe.set("outside", word)?))
+    }
 }
 
-fn layers_of_file(path: &Path) -> Result<Layers, Failure> {
+fn take_layers(recipe: &mut Recipe, path: &Path) -> Result<(), Failure> {
     if !paths::is_stream(path) && !path.exists() {
         let message = format!(
             "--layers: expected body, limbs, joints or a file of layers; there is no file {}",
@@ -252,7 +284,7 @@ fn layers_of_file(path: &Path) -> Result<Layers, Failure> {
         );
         return Err(Failure::AskedWrongly(message));
     }
-    files::parsed("layers", path, Layers::parse)
+    files::parsed("layers", path, |text| recipe.take_layers(text))
 }
 
 fn wrongly(option: &str, error: Error) -> Failure {

@@ -5,8 +5,10 @@ use std::ops::Deref;
 use genga::edits::{Edits, Hold};
 use genga::keys::Key;
 use genga::pipeline::{Breakdown, LayerBreakdown};
+use genga::recipe::Recipe;
 use genga::sheet::{Layer, Source};
 use genga::time::{Clock, Frame};
+use genga::timing::{ByPassage, Spacing};
 use genga_plot::parts;
 
 /// A drawing as exposed on the sheet, with its key.
@@ -75,6 +77,16 @@ impl<'a> Column<'a> {
     /// The keys that were found or set by hand.
     pub(super) fn keys(&self) -> &'a [Key] {
         &self.found.keys.keys
+    }
+
+    /// The spacing of the column along the sheet; `last` is the clip's last frame.
+    pub(super) fn spacing(&self, recipe: &Recipe, last: Frame) -> ByPassage<Spacing> {
+        recipe.timing_of(self.name, (self.clock, last), self.spaced.length()).spacing
+    }
+
+    /// The spacing weight of a key without one of its own.
+    pub(super) fn usual_weight(&self, key: &Key, recipe: &Recipe, last: Frame) -> f64 {
+        self.spacing(recipe, last).at(self.clock.koma_from_frame(key.frame)).weight
     }
 
     /// Index of the exposure on screen at a koma.

@@ -146,7 +146,8 @@ fn weight(ui: &mut Ui, key: &Key, shown: &Shown<'_>, commands: &mut Vec<Command>
     ui.horizontal(|ui| {
         let mut is_own = key.weight.is_some();
         if ui.checkbox(&mut is_own, label).changed() {
-            let weight = is_own.then_some(shown.wanted.recipe.spacing.weight);
+            let (recipe, last) = (&shown.wanted.recipe, shown.breakdown.source.last());
+            let weight = is_own.then(|| shown.column().usual_weight(key, recipe, last));
             commands.push(Command::Correct(Correction::Weight(key.clone(), weight)));
         }
         if let Some(own) = key.weight {

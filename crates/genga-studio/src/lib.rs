@@ -425,7 +425,7 @@ impl Studio {
 
     fn put_on_table(&mut self, mut take: Take) {
         if let Some(before) = self.take.as_ref().filter(|_| self.takes.share) {
-            take.wanted.recipe = before.document().recipe.clone();
+            take.wanted.take_settings(&before.document().recipe);
         }
         let breakdown = take.results().breakdown;
         self.curves = Curves::new(breakdown.filtered.movers_first(breakdown.clip.skeleton()));

@@ -47,7 +47,8 @@ impl Here<'_> {
                 Correction::Move(key, to)
             }
             (Command::Crowd(by), Some(key)) => {
-                let weight = key.weight.unwrap_or(self.wanted.recipe.spacing.weight) + by;
+                let usual = column.usual_weight(&key, &self.wanted.recipe, self.clip.last());
+                let weight = key.weight.unwrap_or(usual) + by;
                 let weight = (weight * 100.0).round() / 100.0;
                 Correction::Weight(key, Some(weight.clamp(0.0, MOST_WEIGHT)))
             }

@@ -244,8 +244,8 @@ fn max_hold_is_koma_on_screen_and_never_below_twice_the_spacing() {
     };
     assert_eq!([longest(3, 1), longest(4, 1), longest(6, 1)], [3, 4, 6]);
     assert_eq!([longest(1, 1), longest(4, 3)], [2, 6]);
-    let by_range = |on| {
-        let course = Course { on, ..Course::default() };
+    let by_range = |on: On| {
+        let course = Course { on: on.into(), ..Course::default() };
         counts(0, 30).apply_to(&layer, &stills, &course).unwrap().layer.longest_hold()
     };
     assert_eq!(
@@ -304,7 +304,7 @@ fn freed_koma_go_to_the_turn_before_and_a_fill_comes_later() {
 #[test]
 fn only_what_is_markedly_fast_is_left_out_and_only_small_movements_are_held() {
     let (layer, stills) = movement();
-    let course = Course { on: On::every(2), height: 100.0, ..Course::default() };
+    let course = Course { on: On::every(2).into(), height: 100.0, ..Course::default() };
     let report = |settings: Omission| settings.apply_to(&layer, &stills, &course).unwrap().report;
     // Steps of 1, 1, 1, 17, 30, 11, 29, 5, 1: the median is 5.
     let gone = |fast| indices(&report(Omission { fast, ..counts(9, 0) }).naka_nashi.gone);
@@ -386,7 +386,7 @@ proptest! {
     ) {
         let (layer, stills) = laid_out(&plan);
         let rows = rows(&layer);
-        let course = Course { on: On::every(on), height: 100.0, ..Course::default() };
+        let course = Course { on: On::every(on).into(), height: 100.0, ..Course::default() };
         let omitted = settings.apply_to(&layer, &stills, &course).unwrap();
         let slow = Rules::new(&settings, &stills, on);
         let without_genga = rows.iter().filter(|row| row.kept).count() <= 2;

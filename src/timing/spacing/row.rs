@@ -3,19 +3,20 @@
 use std::sync::Arc;
 
 use super::interval::Interval;
+use super::outside::Timed;
 use super::station::Station;
 use super::steps::Steps;
 use super::still::Still;
 use super::{Spaced, Spacing};
 use crate::keys::Wall;
 use crate::sheet::{Drawing, Exposure, Layer};
-use crate::time::Clock;
+use crate::timing::ByPassage;
 use crate::timing::koma_per_drawing::{Pace, STAY};
 
 /// The rules by which a row is laid out.
 pub(super) struct Rules<'a> {
-    pub(super) spacing: &'a Spacing,
-    pub(super) clock: Clock,
+    pub(super) spacing: &'a ByPassage<Spacing>,
+    pub(super) timed: Timed<'a>,
     pub(super) walls: &'a [Wall],
     /// Whether the last drawing before the end may hold up to the sheet's end.
     pub(super) holds_end: bool,
@@ -27,21 +28,16 @@ pub(super) struct Rules<'a> {
 /// The drawings, the koma on which they begin, and the number of requested inbetweens that did not fit.
 #[derive(Default)]
 pub(super) struct Row {
-    drawings: Vec<Drawing>,
-    begins: Vec<usize>,
+    pub(super) drawings: Vec<Drawing>,
+    pub(super) begins: Vec<usize>,
     /// The koma whose poses the last two drawings show; a genga may be placed before its own koma.
     shown: [usize; 2],
-    did_not_fit: usize,
+    pub(super) did_not_fit: usize,
 }
 
 impl Rules<'_> {
-    /// Lays out stations on `koma` koma; `names` are the names of all joints.
-    pub(super) fn lay_out(
-        self,
-        stations: &[Station<'_>],
-        koma: usize,
-        names: &[Arc<str>],
-    ) -> Spaced {
+    /// Lays out stations; `names` are the names of all joints.
+    pub(super) fn lay_out(self, stations: &[Station<'_>], names: &[Arc<str>]) -> Spaced {
         let mut row = Row::default();
         let drawn = self.drawn(stations);
         let mut begin = 0;
@@ -54,7 +50,8 @@ impl Rules<'_> {
                 begin = self.go(&mut row, station, next, drawn[at + 1]);
             }
         }
-        Spaced { gaits: self.steps.into_koma(), ..row.into_spaced(koma) }
+        let spaced = self.timed.beside_source(row).into_spaced(self.timed.length);
+        Spaced { gaits: self.steps.into_koma(), source: self.timed.source_koma(), ..spaced }
     }
 
     /// Returns which stations are drawn: all but the ends of rests and of the sheet up to which the drawing before
@@ -79,8 +76,8 @@ impl Rules<'_> {
             return self.step(row, from, to, &koma);
         }
         let [_, shown] = row.shown;
-        let all = self.inbetweens(shown, from.koma, to.koma);
-        row.did_not_fit += self.spacing.inbetweens.map_or(0, |asked| asked - all.len());
+        let all = self.inbetweens(shown, from, to.koma);
+        row.did_not_fit += self.asked(from).map_or(0, |asked| asked - all.len());
         let holds = self.still.holds(shown, to.koma);
         if !is_drawn && holds {
             return to.koma;
@@ -90,7 +87,7 @@ impl Rules<'_> {
             _ if !is_drawn || holds => to.koma,
             true if self.is_end_of_rest(to) => to.koma,
             true => self.displace(&mut koma, to),
-            false => self.arrive(row, &mut koma, to),
+            false => self.arrive(row, &mut koma, [from, to]),
         };
         self.put(row, [from, to], &koma, end);
         end
@@ -98,15 +95,14 @@ impl Rules<'_> {
 
     /// Puts the inbetweens of a step, the same in every step, between two stations. Nothing holds there.
     fn step(&self, row: &mut Row, from: &Station<'_>, to: &Station<'_>, koma: &[usize]) -> usize {
-        row.did_not_fit +=
-            self.spacing.inbetweens.map_or(0, |asked| asked.saturating_sub(koma.len()));
+        row.did_not_fit += self.asked(from).map_or(0, |asked| asked.saturating_sub(koma.len()));
         self.put(row, [from, to], koma, to.koma);
         to.koma
     }
 
     /// Puts inbetweens on some koma into a row; the last stays up to `end`.
     fn put(&self, row: &mut Row, [from, to]: [&Station<'_>; 2], koma: &[usize], end: usize) {
-        let interval = Interval::new(self.spacing, from, to, self.walls, self.clock);
+        let interval = Interval::new(self.spacing, from, to, self.walls, self.timed.clock);
         let ends = koma.iter().skip(1).copied().chain([end]);
         for (koma, end) in koma.iter().zip(ends) {
             row.put(*koma, *koma, interval.inbetween(*koma, end - koma));
@@ -115,10 +111,11 @@ impl Rules<'_> {
 
     /// Returns the koma of the inbetweens between two koma. The first comes no earlier than the body sets out from the
     /// drawing on screen, and each stays as long as a drawing must.
-    fn inbetweens(&self, shown: usize, from: usize, to: usize) -> Vec<usize> {
-        if let Some(asked) = self.spacing.inbetweens {
-            return self.spacing.evenly(asked, from..to, self.pace);
+    fn inbetweens(&self, shown: usize, from: &Station<'_>, to: usize) -> Vec<usize> {
+        if let Some(asked) = self.asked(from) {
+            return self.spacing.evenly(asked, from.koma..to, self.pace);
         }
+        let from = from.koma;
         let step = |koma: usize| self.spacing.stay(koma, self.pace);
         let stays = |koma: &usize| koma + step(*koma).min(STAY) <= to;
         // The drawing on screen stays as long as any other.
@@ -129,6 +126,11 @@ impl Rules<'_> {
         };
         let next = |koma: &usize| Some(koma + step(*koma));
         std::iter::successors(Some(first), next).take_while(stays).collect()
+    }
+
+    /// Returns the fixed number of inbetweens after a key, if there is one.
+    fn asked(&self, from: &Station<'_>) -> Option<usize> {
+        self.spacing.at(from.koma).inbetweens
     }
 
     /// Whether a station is the end of a rest, and so marks a time rather than a pose.
@@ -148,9 +150,9 @@ impl Rules<'_> {
 
     /// Returns the koma of a station: its own, or the one at which the body arrives, if the drawing before has stayed
     /// long enough by then. Inbetweens after that koma are removed.
-    fn arrive(&self, row: &Row, koma: &mut Vec<usize>, to: &Station<'_>) -> usize {
+    fn arrive(&self, row: &Row, koma: &mut Vec<usize>, [from, to]: [&Station<'_>; 2]) -> usize {
         let stays_two = self.spacing.stay(to.koma, self.pace) >= STAY;
-        if to.is_fixed() || self.spacing.inbetweens.is_some() || !stays_two {
+        if to.is_fixed() || self.asked(from).is_some() || !stays_two {
             return to.koma;
         }
         let [_, shown] = row.shown;
@@ -169,7 +171,7 @@ impl Row {
     }
 
     /// Puts a drawing on a koma; `shown` is the koma whose pose it shows.
-    fn put(&mut self, koma: usize, shown: usize, drawing: Drawing) {
+    pub(super) fn put(&mut self, koma: usize, shown: usize, drawing: Drawing) {
         self.drawings.push(drawing);
         self.begins.push(koma);
         self.shown = [self.shown[1], shown];
@@ -189,6 +191,7 @@ impl Row {
             layer: Layer { name: "A".into(), joints: vec![], drawings, exposures },
             did_not_fit,
             gaits: Vec::new(),
+            source: Vec::new(),
         }
     }
 }

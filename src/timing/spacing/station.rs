@@ -3,6 +3,7 @@
 use std::cmp::Reverse;
 use std::sync::Arc;
 
+use super::outside::Timed;
 use super::steps::Steps;
 use crate::keys::{Key, Origin};
 use crate::motion::JointId;
@@ -17,23 +18,31 @@ pub(super) struct Station<'a> {
     pub(super) role: Role,
     /// The key it shows; for an end, the key it took over.
     pub(super) key: Option<&'a Key>,
+    /// Whether timed koma and koma of the source meet there.
+    pub(super) is_border: bool,
 }
 
 /// Returns keys and ends by koma; of those too close to each other, the stronger.
 ///
 /// `least` gives the fewest koma that the drawing of a koma has to stay. Drawings that a person set stay, however
-/// close. The phases of `steps` have koma of their own.
+/// close. The phases of `steps` have koma of their own. Koma that are not timed have no stations but those that a person
+/// set.
 pub(super) fn stations<'a>(
     keys: &'a [Key],
     steps: &Steps,
-    (clock, length): (Clock, usize),
+    timed: Timed<'_>,
     least: impl Fn(usize) -> usize,
 ) -> Vec<Station<'a>> {
-    let Some(last) = length.checked_sub(1) else { return Vec::new() };
+    let (clock, Some(last)) = (timed.clock, timed.length.checked_sub(1)) else { return Vec::new() };
     let mut own = on_koma(keys, steps, (clock, last), &least);
     let set: Vec<usize> = own.iter().filter(|key| key.is_set()).map(|key| key.koma).collect();
     let stay = if last == 0 { 1 } else { least(last - 1) };
     let mut taken = ends(clock, last, stay, &set);
+    taken.retain(|end| end.koma == 0 || timed.has(end.koma) && timed.has(last));
+    taken.splice(0..0, timed.borders());
+    taken.sort_by_key(|station| station.koma);
+    taken.dedup_by_key(|station| station.koma);
+    own.retain(|key| timed.has(key.koma) || key.is_set());
     // The strongest first; on a tie the earlier, as the sort is stable.
     own.sort_by(|a, b| b.strength().total_cmp(&a.strength()));
     own.sort_by_key(|station| Reverse(station.rank()));
@@ -46,7 +55,8 @@ pub(super) fn stations<'a>(
             let least = || steps.least(a).unwrap_or_else(|| least(a));
             a == b || !are_steps && b - a < least()
         };
-        let is_last_end = |at: usize| at > 0 && taken[at].role == Role::End;
+        let is_last_end =
+            |at: usize| at > 0 && at + 1 == taken.len() && taken[at].role == Role::End;
         let near_before = is_near(&taken[before]);
         let near_next = taken.get(next).is_some_and(is_near);
         if is_last_end(before) || taken[before].koma == station.koma {
@@ -86,7 +96,7 @@ fn on_koma<'a>(
         if key.origin.is_set() {
             set = Some(koma);
         }
-        stations.push(Station { koma, place, role: Role::Genga, key: Some(key) });
+        stations.push(Station { koma, place, role: Role::Genga, key: Some(key), is_border: false });
     }
     stations
 }
@@ -109,6 +119,7 @@ fn ends<'a>(clock: Clock, last: usize, stay: usize, set: &[usize]) -> Vec<Statio
         place: clock.place_from_koma(shown),
         role: Role::End,
         key: None,
+        is_border: false,
     };
     let begin = (last + 1).saturating_sub(stay);
     let wanted = set.iter().filter(|koma| **koma >= begin.max(1)).count();
@@ -125,10 +136,11 @@ impl Station<'_> {
         self.key.is_some_and(|key| key.origin.is_set())
     }
 
-    /// Whether it is drawn whatever the body does: a person placed it, a contact happens there, or it is a phase of a
-    /// gait.
+    /// Whether it is drawn whatever the body does: a person placed it, a contact happens there, it is a phase of a gait,
+    /// or it joins the source.
     pub(super) fn is_fixed(&self) -> bool {
-        self.is_set() || matches!(self.origin(), Some(Origin::Contact | Origin::Step))
+        let is_event = matches!(self.origin(), Some(Origin::Contact | Origin::Step));
+        self.is_border || self.is_set() || is_event
     }
 
     /// Whether it is a phase of a step in a gait.
@@ -138,7 +150,7 @@ impl Station<'_> {
 
     /// Whether it is an end of the sheet that no person placed.
     pub(super) fn is_free_end(&self) -> bool {
-        self.role == Role::End && !self.is_set()
+        self.role == Role::End && !self.is_set() && !self.is_border
     }
 
     /// Whether a rest begins or ends there, within the sheet.

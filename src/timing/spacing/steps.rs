@@ -8,6 +8,7 @@ use super::Spacing;
 use crate::keys::{Phase, Walk, WalkStep};
 use crate::maths::median;
 use crate::time::Frame;
+use crate::timing::ByPassage;
 use crate::timing::koma_per_drawing::{Pace, STAY};
 
 /// Instants closer than this, in koma, are equal.
@@ -36,15 +37,24 @@ struct Steady {
 }
 
 impl Steps {
-    /// Lays out the drawings of gaits on a sheet of `length` koma.
-    pub(super) fn new(walks: &[Walk], length: usize, spacing: &Spacing, pace: &Pace<'_>) -> Self {
+    /// Lays out the drawings of gaits on a sheet of `length` koma. A step is spaced as at its contact.
+    pub(super) fn new(
+        walks: &[Walk],
+        length: usize,
+        spacing: &ByPassage<Spacing>,
+        pace: &Pace<'_>,
+    ) -> Self {
         let mut steps = Self::default();
         // The last contact on the sheet: a gait that begins with it begins there.
         let mut before = None;
         for walk in walks {
-            let placing = Placing::new(walk, spacing, pace);
-            let koma = placing.koma_of_steps(walk, &mut before);
-            placing.put((walk, koma), length, &mut steps);
+            let placing = spacing.map(|own| Placing::new(walk, own, pace));
+            for step in &walk.steps {
+                let own = placing.at(nearest(step.contact));
+                let koma = own.koma_of_step(step, nearest(walk.koma), &mut before);
+                let is_one = |koma: &Range<usize>| spacing.is_one(koma.start, koma.end);
+                own.put((step, koma), (length, is_one), &mut steps);
+            }
         }
         steps
     }
@@ -101,52 +111,61 @@ impl Placing {
         Self { exposures: Exposures::new(&walk.shares, walk.koma, rhythm), comes_early }
     }
 
-    /// Returns the koma of each step. As long as a contact stays within a koma of its place, all steps are equally
+    /// Returns the koma of a step. As long as a contact stays within a koma of its place, all steps are `usual` koma
     /// long: rounded one by one, steps of 12.4 and 13.3 koma would become 12 and 14.
     ///
-    /// `before` is the contact before the gait, and becomes its last: its time and its koma.
-    fn koma_of_steps(&self, walk: &Walk, before: &mut Option<(f64, isize)>) -> Vec<Range<isize>> {
-        let usual = nearest(walk.koma) as isize;
-        let centre = if self.comes_early { 0.5 } else { 0.0 };
-        let step = |step: &WalkStep| {
-            let begin = match *before {
-                Some((next, end)) if (next - step.contact).abs() < HAIR => end,
-                _ => koma(step.contact, self.comes_early),
-            };
-            let off = (begin + usual) as f64 + centre - step.next;
-            let end =
-                if off.abs() < ONE { begin + usual } else { koma(step.next, self.comes_early) };
-            *before = Some((step.next, end));
-            begin..end
+    /// `before` is the contact before the step, and becomes its last: its time and its koma.
+    fn koma_of_step(
+        &self,
+        step: &WalkStep,
+        usual: usize,
+        before: &mut Option<(f64, isize)>,
+    ) -> Range<isize> {
+        let begin = match *before {
+            Some((next, end)) if (next - step.contact).abs() < HAIR => end,
+            _ => koma(step.contact, self.comes_early),
         };
-        walk.steps.iter().map(step).collect()
+        let centre = if self.comes_early { 0.5 } else { 0.0 };
+        let usual = begin + usual as isize;
+        let is_near = (usual as f64 + centre - step.next).abs() < ONE;
+        let end = if is_near { usual } else { koma(step.next, self.comes_early) };
+        *before = Some((step.next, end));
+        begin..end
     }
 
-    /// Puts a gait's drawings on a sheet of `length` koma; `koma` are those of its steps.
-    fn put(&self, (walk, koma): (&Walk, Vec<Range<isize>>), length: usize, steps: &mut Steps) {
+    /// Puts the drawings of a step on a sheet of `length` koma; `koma` are those of the step. In a step with other
+    /// settings in its midst (not `is_one`), only the genga are those of all steps.
+    fn put(
+        &self,
+        (step, Range { start: begin, end }): (&WalkStep, Range<isize>),
+        (length, is_one): (usize, impl Fn(&Range<usize>) -> bool),
+        steps: &mut Steps,
+    ) {
+        if step.is_corrected {
+            return;
+        }
         let on_sheet = |koma: isize| usize::try_from(koma).ok().filter(|koma| *koma < length);
-        for (step, Range { start: begin, end }) in walk.steps.iter().zip(koma) {
-            if step.is_corrected {
-                continue;
-            }
-            let mut at = begin;
-            let mut begins = Vec::new();
-            for exposure in self.exposures.of_step((end - begin).max(0) as usize) {
-                begins.push(at);
-                for (from, to) in exposure.cuts().skip(1) {
-                    if let Some(koma) = on_sheet(at + from as isize) {
-                        steps.inbetweens.insert(koma, to - from);
-                    }
-                }
-                at += exposure.koma as isize;
-            }
-            for (frame, begin) in step.frames.iter().zip(begins.into_iter().chain([end])) {
-                if let (Some(frame), Some(koma)) = (frame, on_sheet(begin)) {
-                    steps.koma.insert(*frame, koma);
+        let inside = |koma: isize| (koma.max(0) as usize).min(length);
+        let whole = inside(begin)..inside(end);
+        let is_steady = is_one(&whole);
+        let mut at = begin;
+        let mut begins = Vec::new();
+        for exposure in self.exposures.of_step((end - begin).max(0) as usize) {
+            begins.push(at);
+            for (from, to) in exposure.cuts().skip(1) {
+                if let Some(koma) = on_sheet(at + from as isize) {
+                    steps.inbetweens.insert(koma, to - from);
                 }
             }
-            let inside = |koma: isize| (koma.max(0) as usize).min(length);
-            steps.add(inside(begin)..inside(end), self.exposures.rhythm.least());
+            at += exposure.koma as isize;
+        }
+        for (frame, begin) in step.frames.iter().zip(begins.into_iter().chain([end])) {
+            if let (Some(frame), Some(koma)) = (frame, on_sheet(begin)) {
+                steps.koma.insert(*frame, koma);
+            }
+        }
+        if is_steady {
+            steps.add(whole, self.exposures.rhythm.least());
         }
     }
 }

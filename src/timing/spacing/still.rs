@@ -4,6 +4,7 @@ use std::ops::RangeInclusive;
 
 use crate::keys::Alike;
 use crate::time::{Clock, Frame};
+use crate::timing::ByPassage;
 use crate::timing::koma_per_drawing::Pace;
 
 /// Poses count as alike at most up to this share of the range of the take's poses: in some takes, breathing is the only
@@ -21,7 +22,7 @@ const FAR: usize = 48;
 
 /// Computes which poses of a body are the same on the sheet; `drift` is the allowed difference in % of body height.
 pub(crate) fn alike(pace: &Pace<'_>, drift: f64) -> Alike {
-    let still = Still { rests: Vec::new(), drift: bounded(drift, pace), pace };
+    let still = Still { rests: Vec::new(), drift: bounded(drift, pace).into(), pace };
     let last = |koma: usize| {
         let on_the_way = koma + 1..(koma + FAR).min(pace.koma());
         on_the_way
@@ -41,8 +42,9 @@ fn bounded(drift: f64, pace: &Pace<'_>) -> f64 {
 pub(super) struct Still<'a> {
     /// The rests, in koma.
     rests: Vec<RangeInclusive<usize>>,
-    /// The difference from which on two poses are distinct, in % of body height; 0 if nothing holds.
-    drift: f64,
+    /// The difference from which on two poses are distinct, in % of body height, on the koma of the later; 0 if nothing
+    /// holds.
+    drift: ByPassage<f64>,
     pace: &'a Pace<'a>,
 }
 
@@ -50,12 +52,12 @@ impl<'a> Still<'a> {
     pub(super) fn new(
         rests: &[RangeInclusive<Frame>],
         clock: Clock,
-        drift: f64,
+        drift: ByPassage<f64>,
         pace: &'a Pace<'a>,
     ) -> Self {
         let koma = |frame: &Frame| clock.koma_from_frame(*frame);
         let rests = rests.iter().map(|rest| koma(rest.start())..=koma(rest.end())).collect();
-        Self { rests, drift: bounded(drift, pace), pace }
+        Self { rests, drift: drift.map(|drift| bounded(*drift, pace)), pace }
     }
 
     /// Whether a koma is inside a rest and shows nothing that its begin does not.
@@ -74,13 +76,13 @@ impl<'a> Still<'a> {
     pub(super) fn departure(&self, shown: usize, from: usize, to: usize) -> usize {
         let is_away = |koma: &usize| !self.are_alike(shown, *koma);
         let away = (from + 1..to).find(is_away).unwrap_or(to);
-        let is_out = |koma: &usize| self.pace.unlike(shown, *koma) >= SLIGHT * self.drift;
+        let is_out = |koma: &usize| self.pace.unlike(shown, *koma) >= SLIGHT * self.drift.at(*koma);
         (from..away).rev().take_while(is_out).last().unwrap_or(away)
     }
 
     /// Returns the first koma after `from` at which the body has arrived at its pose of `to`.
     pub(super) fn arrival(&self, from: usize, to: usize) -> usize {
-        let is_there = |koma: &usize| self.pace.unlike(*koma, to) < SLIGHT * self.drift;
+        let is_there = |koma: &usize| self.pace.unlike(*koma, to) < SLIGHT * self.drift.at(*koma);
         (from + 1..to).rev().take_while(is_there).last().unwrap_or(to)
     }
 
@@ -117,11 +119,12 @@ impl<'a> Still<'a> {
     /// before that drawing. A gesture goes out and comes back, and may be hardly larger than the drift.
     fn stays(&self, [before, shown]: [usize; 2], koma: usize) -> bool {
         let [from_before, from_shown] = [before, shown].map(|own| self.pace.unlike(own, koma));
-        from_shown < self.drift && from_shown <= from_before + SLIGHT * self.drift
+        let drift = *self.drift.at(koma);
+        from_shown < drift && from_shown <= from_before + SLIGHT * drift
     }
 
     /// Whether the poses of two koma are nearly the same.
     fn are_alike(&self, a: usize, b: usize) -> bool {
-        self.pace.unlike(a, b) < self.drift
+        self.pace.unlike(a, b) < *self.drift.at(a.max(b))
     }
 }

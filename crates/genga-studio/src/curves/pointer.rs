@@ -139,7 +139,7 @@ impl<'a> Ruler<'a> {
 /// The key on the side of an inbetween, and the weight that moves the inbetween to a place.
 fn pulled<'a>(koma: usize, place: f64, shown: &Shown<'a>) -> Option<(&'a Key, f64)> {
     let column = shown.column();
-    let spacing = &shown.wanted.recipe.spacing;
+    let spacing = column.spacing(&shown.wanted.recipe, shown.breakdown.source.last());
     let pull = spacing.pulled(column.found.keys, column.spaced, column.clock, koma, place)?;
     let keys = column.keys();
     let at = keys.binary_search_by_key(&pull.key, |key| key.frame).ok()?;

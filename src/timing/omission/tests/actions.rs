@@ -34,7 +34,7 @@ fn actions_begin_in_order_and_one_without_a_koma_is_none() {
 }
 
 fn course(on: usize, later: &[usize]) -> Course {
-    Course { on: On::every(on), later: later.to_vec(), ..Course::default() }
+    Course { on: On::every(on).into(), later: later.to_vec(), ..Course::default() }
 }
 
 /// Generates the drawings of an action: one that stays, then inbetweens.

@@ -28,6 +28,16 @@ fn a_step_has_exposures_by_its_length_alone() {
     assert_eq!(koma(&Exposures::new(&[0.0], 3.1, ON_TWOS).of_step(3)), [3]);
 }
 
+/// Returns the koma of each step of a walk.
+fn koma_of_steps(
+    placing: &Placing,
+    walk: &Walk,
+    before: &mut Option<(f64, isize)>,
+) -> Vec<Range<isize>> {
+    let usual = nearest(walk.koma);
+    walk.steps.iter().map(|step| placing.koma_of_step(step, usual, before)).collect()
+}
+
 #[test]
 fn steps_are_equally_long_while_their_contacts_stay_within_a_koma() {
     let walk = |lengths: &[f64]| {
@@ -43,7 +53,7 @@ fn steps_are_equally_long_while_their_contacts_stay_within_a_koma() {
     let placing =
         |comes_early| Placing { exposures: Exposures::new(&[0.0], 12.9, ON_TWOS), comes_early };
     let lengths = |of: &[f64], comes_early| {
-        let steps = placing(comes_early).koma_of_steps(&walk(of), &mut None);
+        let steps = koma_of_steps(&placing(comes_early), &walk(of), &mut None);
         assert!(steps.windows(2).all(|pair| pair[0].end == pair[1].start));
         let is_near = |(step, koma): (&WalkStep, &Range<isize>)| {
             (koma.end as f64 - step.next).abs() <= if comes_early { 1.5 } else { 1.0 }
@@ -82,8 +92,8 @@ fn a_gait_begins_on_the_koma_on_which_the_one_before_ends() {
             let first = walk(0.1 * f64::from(tenths), 12.7);
             let second = walk(first.steps[3].next, 9.3);
             let mut before = None;
-            let slow = placing(12.7).koma_of_steps(&first, &mut before);
-            let quick = placing(9.3).koma_of_steps(&second, &mut before);
+            let slow = koma_of_steps(&placing(12.7), &first, &mut before);
+            let quick = koma_of_steps(&placing(9.3), &second, &mut before);
             assert_eq!(slow[3].end, quick[0].start, "{tenths} {comes_early}");
         }
     }
