@@ -403,7 +403,7 @@ impl Sheet {
         let of_layer = |layer: &Layer| {
             let shown = &layer.exposures[..];
             let is_round = |count: &usize| {
-                shown.len() % count == 0
+                shown.len().is_multiple_of(*count)
                     && shown.chunks(*count).all(|round| round == &shown[..*count])
             };
             (1..=shown.len()).find(is_round).map_or(1, |count| shown.len() / count)

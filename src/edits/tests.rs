@@ -1,6 +1,7 @@
 use proptest::prelude::*;
 
 use super::*;
+use crate::slate::Slate;
 
 fn pins(texts: &[&str]) -> Vec<Pin> {
     texts.iter().map(|text| Pin::parse(text).unwrap()).collect()
@@ -214,6 +215,7 @@ proptest! {
         (only_pins, again) in any::<(bool, bool)>(),
         frozen in prop::collection::vec((0..99usize).prop_map(Frame), 0..4),
         splits in prop::collection::vec((0..99usize).prop_map(Frame), 0..4),
+        (at, length, cut) in (prop::option::of(1..99usize), prop::option::of(1..99usize), "[a-z0-9]{0,4}"),
         speech in prop::collection::vec((0..99usize, 1..9usize, "[a-z]{0,3}", "[a-z あ\"]{1,5}"), 0..4),
     ) {
         let hold = |(frame, koma)| Hold { frame: Frame(frame), koma };
@@ -226,6 +228,10 @@ proptest! {
             speaker,
             words,
         };
+        let cue = |from, length, words: &str| CameraCue {
+            frames: [Frame(from), Frame(from + length)],
+            text: words.into(),
+        };
         let edits = Edits {
             pins: pins.into_iter().map(pin).collect(),
             forbidden: ranges.into_iter().map(range).collect(),
@@ -236,7 +242,11 @@ proptest! {
             frozen,
             layers: BTreeMap::new(),
             splits,
+            camera: speech.iter().map(|(from, length, _, words)| cue(*from, *length, words)).collect(),
             speech: speech.into_iter().map(said).collect(),
+            at,
+            length,
+            slate: Slate { cut, ..Slate::default() },
         };
         let own = LayerEdits {
             pins: edits.pins.clone(),

@@ -107,7 +107,7 @@ impl Cycle {
     fn measured(clip: &Clip, build: &Build, stretches: &[(Frame, Frame)]) -> Vec<Self> {
         // Half a koma: a single frame of a fast capture trembles.
         let step = ((clip.rate().fps() / KOMA_RATE / 2.0).round() as usize).max(1);
-        let is_long = |(first, last): &&(Frame, Frame)| last.0 >= first.0 + 4 * step + 1;
+        let is_long = |(first, last): &&(Frame, Frame)| last.0 > first.0 + 4 * step;
         let stretches: Vec<_> = stretches.iter().filter(is_long).copied().collect();
         let rows = |&(first, last): &(Frame, Frame)| {
             let ends = (0..3).flat_map(move |at| [first.0 + at * step, last.0 - at * step]);

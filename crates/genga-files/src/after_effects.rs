@@ -24,15 +24,31 @@ pub(super) fn write(sheet: &Sheet, put: &mut Sink<'_>) -> Result<(), Error> {
 /// pictures at the sheet's `koma_rate` (per second), one picture per drawing, with drawing 1 at 0 s. After Effects
 /// gives pasted keys linear interpolation; *Toggle Hold Keyframe* turns them into holds.
 pub fn time_remap(layer: &Layer, koma_rate: f64) -> String {
-    let remapped = changes(layer, 0, koma_rate);
-    keyframes(koma_rate, &[("Layer\nTime Remap", "seconds", remapped)])
+    keyframes(koma_rate, &[Property::time_remap(changes(layer, 0, koma_rate))])
+}
+
+/// A keyed property: its name, its unit and its values by frame.
+struct Property {
+    name: &'static str,
+    unit: &'static str,
+    keys: Vec<(usize, f64)>,
+}
+
+impl Property {
+    fn time_remap(keys: Vec<(usize, f64)>) -> Self {
+        Self { name: "Layer\nTime Remap", unit: "seconds", keys }
+    }
+
+    fn opacity(keys: Vec<(usize, f64)>) -> Self {
+        Self { name: "Transform\tOpacity", unit: "percent", keys }
+    }
 }
 
 /// Writes the time remapping of a layer of a sheet and, if the sheet has blank koma, the opacity that hides the layer
 /// on them. Two opacities on neighbouring frames make it change at once, even between linear keys.
 fn in_cut(sheet: &Sheet, layer: &Layer) -> String {
     let (koma_rate, begin) = (sheet.clock.koma_rate, sheet.blank.before);
-    let remapped = ("Layer\nTime Remap", "seconds", changes(layer, begin, koma_rate));
+    let remapped = Property::time_remap(changes(layer, begin, koma_rate));
     if sheet.blank.is_none() {
         return keyframes(koma_rate, &[remapped]);
     }
@@ -41,7 +57,7 @@ fn in_cut(sheet: &Sheet, layer: &Layer) -> String {
     let leaves = if end < sheet.cut_length() { vec![(end - 1, 100.0), (end, 0.0)] } else { vec![] };
     let mut shown = [enters, leaves].concat();
     shown.dedup();
-    keyframes(koma_rate, &[remapped, ("Transform\tOpacity", "percent", shown)])
+    keyframes(koma_rate, &[remapped, Property::opacity(shown)])
 }
 
 /// The times of the drawings in the column's pictures, in seconds, by the frame on which they come. The layer enters on
@@ -51,13 +67,13 @@ fn changes(layer: &Layer, begin: usize, koma_rate: f64) -> Vec<(usize, f64)> {
     changes.map(|(koma, drawing)| (begin + koma, drawing as f64 / koma_rate)).collect()
 }
 
-/// Writes properties, each with its name, its unit and its values by frame.
-fn keyframes(koma_rate: f64, properties: &[(&str, &str, Vec<(usize, f64)>)]) -> String {
+/// Writes properties as After Effects copies them.
+fn keyframes(koma_rate: f64, properties: &[Property]) -> String {
     let mut text = format!(
         "Adobe After Effects 9.0 Keyframe Data\n\n\tUnits Per Second\t{koma_rate}\n\tSource Width\t1920\n\
          \tSource Height\t1080\n\tSource Pixel Aspect Ratio\t1\n\tComp Pixel Aspect Ratio\t1\n"
     );
-    for (name, unit, keys) in properties {
+    for Property { name, unit, keys } in properties {
         let _ = writeln!(text, "\n{name}\n\tFrame\t{unit}");
         for (frame, value) in keys {
             let _ = writeln!(text, "\t{frame}\t{value}");

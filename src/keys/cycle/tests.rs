@@ -61,5 +61,5 @@ fn a_motion_without_a_gait_offers_its_closest_poses() {
     let cycles = Cycle::find_all(&pendulum(160, 30.0));
     assert!(!cycles.is_empty() && cycles.len() <= MOST);
     let best = cycles[0];
-    assert!(best.frames() % 48 == 0 && best.is_closed(), "{cycles:?}");
+    assert!(best.frames().is_multiple_of(48) && best.is_closed(), "{cycles:?}");
 }

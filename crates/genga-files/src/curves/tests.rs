@@ -190,13 +190,5 @@ fn each_layer_of_a_sample_keeps_its_genga_and_the_body_stays_close() {
         }
         let notes = Curves::default().notes(made.clip, made.sheet).unwrap();
         assert_eq!(notes.len(), usize::from(keyed.added() > 0));
-        println!(
-            "{layers}: {} keys, {} added, {:.4} with genga alone, largest {:.4}, mean {:.5}",
-            keyed.keys(),
-            keyed.added(),
-            keyed.error_of_genga,
-            keyed.largest,
-            keyed.mean
-        );
     }
 }

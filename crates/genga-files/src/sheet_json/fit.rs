@@ -85,7 +85,7 @@ impl SheetFile {
         // An empty layer is refused later, with a reason of its own.
         let is_whole = |koma: usize| match self.sheet.repeat {
             None => koma == whole,
-            Some(round) => koma % round.koma == 0,
+            Some(round) => koma.is_multiple_of(round.koma),
         };
         let is_other = |layer: &&Layer| layer.length() > 0 && !is_whole(layer.length());
         let layers = self.sheet.layers.iter().filter(is_other);

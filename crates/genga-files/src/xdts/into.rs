@@ -14,6 +14,9 @@ use crate::json_words;
 use genga::error::Error;
 use genga::sheet::{Sheet, column_name};
 
+/// The numbers of fields of a timesheet, with what is written into the columns of each.
+type Fields = Vec<(u32, Column)>;
+
 /// How the columns go in.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct IntoTimesheet {
@@ -113,11 +116,7 @@ impl IntoTimesheet {
     }
 
     /// The fields of the timesheet that get columns, and what was guessed.
-    fn columns(
-        &self,
-        signature: &str,
-        timesheet: &[u8],
-    ) -> Result<(Vec<(u32, Column)>, Vec<String>), Error> {
+    fn columns(&self, signature: &str, timesheet: &[u8]) -> Result<(Fields, Vec<String>), Error> {
         let action = (CELS, Column::Genga { has_marks: true });
         let cell = Column::Douga { has_circles: false };
         if signature == TDTS_SIGNATURE {

@@ -254,7 +254,7 @@ fn a_half_has_the_exposures_and_gauges_that_a_look_at_all_finds() {
                 shares: vec![0.5; 5],
             })
             .collect();
-        let leaf = Leaf::new(&layer, &gauges, 0);
+        let leaf = Leaf::new(&layer, &gauges, 0, None);
         let highest = layer.exposures.iter().map(|shown| shown.drawing).max();
         let end = layer.timed().filter(|(_, shown)| Some(shown.drawing) == highest).last();
         assert_eq!(leaf.end, end.map(|(begin, _)| begin));

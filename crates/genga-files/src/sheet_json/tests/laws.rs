@@ -189,6 +189,7 @@ fn sheet_file() -> impl Strategy<Value = SheetFile> {
                     camera: vec![],
                     blank,
                     slate,
+                    repeat: None,
                 }
                 .with_lines(&lines),
                 clip: MadeOf {

@@ -52,11 +52,6 @@ fn between_few_keys_the_curves_stay_close_to_the_take() {
             assert!(off <= 1.1 * error, "{name}: off by {off}, asked {error}");
             let mut frames: Vec<u32> = made.motion.keys.iter().map(|key| key.frame).collect();
             frames.dedup();
-            println!(
-                "{name}, {error}: {} of {} frames keyed, off by {off:.4}",
-                frames.len(),
-                taken.len()
-            );
             counts.push(frames.len());
         }
         assert!(counts[1] < counts[0] && counts[0] < clip.len(), "{name}: {counts:?}");
