@@ -334,7 +334,8 @@ fn quotas(parts: &[Part], layer: &Layer, course: &Course, strip: &Strip<'_>) -> 
             let own: Vec<Range<usize>> = part.within(&action).collect();
             let koma: usize = own.iter().map(ExactSizeIterator::len).sum();
             let fast = if strip.by_koma { 0.0 } else { fast };
-            (koma > 0).then(|| Quota {
+            // A layer without koma is asked too, and says what it could not do.
+            (koma > 0 || action.is_empty()).then(|| Quota {
                 drawings: own.into_iter().map(drawings).collect(),
                 count: part.settings.count_in(koma),
                 is_count: matches!(naka_nashi, Amount::Count(_)),

@@ -983,7 +983,9 @@ fn all_goes_without_what_cannot_be_made_and_says_so() {
         let said = text(&place.genga(&format!("run {args} --deliver all --out {o}")).stderr);
         assert!(said.contains(note), "{said}");
         assert!(read(&place.path(&format!("{o}/report.json"))).contains(note));
-        assert!(!place.files(o).keys().any(|name| name.ends_with(".vmd")));
+        // Keys with curves are at the times of the take, whatever the rate of the sheet.
+        let is_stepped = |name: &String| name.ends_with(".vmd") && !name.ends_with("-keys.vmd");
+        assert!(!place.files(o).keys().any(is_stepped));
         let clip = args.split(' ').next().unwrap();
         let output = place.genga(&format!("deliver {o}/sheet.json {clip} --to all --out {o}-all"));
         assert!(text(&output.stderr).contains(note) && output.status.success());

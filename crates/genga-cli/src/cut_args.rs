@@ -12,7 +12,7 @@ use genga::slate::Slate;
 #[derive(Debug, Default, Clone, Args)]
 pub(super) struct CutArgs {
     /// The work, on every sheet.
-    #[arg(long, value_name = "NAME", help_heading = CUT)]
+    #[arg(long, value_name = "NAME", help_heading = CUT, hide_short_help = true)]
     title: Option<String>,
     /// The episode [default: ep03 in the clip's name, if that has a cut].
     #[arg(long, value_name = "NUMBER", help_heading = CUT)]
@@ -27,7 +27,7 @@ pub(super) struct CutArgs {
     #[arg(long, value_name = "NUMBER", help_heading = CUT)]
     take_number: Option<String>,
     /// The key animator.
-    #[arg(long, value_name = "NAME", help_heading = CUT)]
+    #[arg(long, value_name = "NAME", help_heading = CUT, hide_short_help = true)]
     animator: Option<String>,
     /// The koma on which the first drawing stands: --at 25
     ///

@@ -131,9 +131,7 @@ fn ends(layers: &[Vec<Key>]) -> Result<(f64, f64), Error> {
     if first < last {
         return Ok((first, last));
     }
-    Err(Error::sheet(
-        "keys with curves need two genga at the least: there is nothing between fewer",
-    ))
+    Err(Error::sheet(super::TOO_FEW))
 }
 
 /// Adds keys at the ends where a layer has none.
