@@ -134,44 +134,31 @@ fn summary(judged: &[Judged<'_>]) -> Table {
     table
 }
 
-/// A table of keys with curves beside as many keys with straight lines between them. Those are the best of all sets for
-/// the worst koma, as Salient Poses finds them.
+/// A table of keys with curves beside as many keys with straight lines between them, over the clips. Those are the best
+/// of all sets for the worst koma, as Salient Poses finds them.
 fn curves(takes: &[Take]) -> Outcome<Table> {
-    let header = [
-        "clip",
-        ">frames",
-        ">genga",
-        ">keys",
-        ">mean",
-        ">largest",
-        ">lines: mean",
-        ">lines: largest",
-    ];
-    let mut table = Table::new(&header);
-    let share = |value: f64| number(100.0 * value, 2);
+    let mut values: [Vec<f64>; 5] = Default::default();
     for take in takes {
         let sheet = &take.runs[0].sheet;
         let found = Curves::default().errors(&take.clip, sheet)?;
-        let mut cells = vec![
-            take.name.clone(),
-            take.clip.len().to_string(),
-            (found.keys - found.added).to_string(),
-            found.keys.to_string(),
-            share(found.mean),
-            share(found.largest),
-        ];
         let grid = KomaFrames::new(take.clip.clone().into(), sheet.clock);
-        let is_long = grid.reference.koma() > Compare::default().longest;
-        cells.extend(match is_long {
-            true => ["–".to_owned(), "–".to_owned()],
-            false => {
-                let best = Optimal::new(&Segments::new(&grid), Objective::Worst, found.keys - 2);
-                let inner = grid.frames_at(&best.keys(found.keys - 2));
-                let lines = CurveErrors::from_lines(&take.clip, &with_ends(&take.clip, &inner));
-                [share(lines.mean), share(lines.largest)]
-            }
-        });
-        table.row(&cells);
+        if grid.reference.koma() > Compare::default().longest {
+            continue;
+        }
+        let best = Optimal::new(&Segments::new(&grid), Objective::Worst, found.keys - 2);
+        let inner = grid.frames_at(&best.keys(found.keys - 2));
+        let lines = CurveErrors::from_lines(&take.clip, &with_ends(&take.clip, &inner));
+        let genga = (found.keys - found.added) as f64;
+        let shares = [found.mean, found.largest, lines.mean, lines.largest];
+        let row = [found.keys as f64 / genga].into_iter().chain(shares.map(|share| 100.0 * share));
+        values.iter_mut().zip(row).for_each(|(column, value)| column.push(value));
+    }
+    let header = ["clips", ">keys a genga", ">mean", ">largest", ">lines: mean", ">largest"];
+    let mut table = Table::new(&header);
+    let spreads = values.map(spread);
+    for (at, name) in ["least", "median", "most"].into_iter().enumerate() {
+        let cells = spreads.iter().map(|of| number(of[at], 2));
+        table.row(&[name.to_owned()].into_iter().chain(cells).collect::<Vec<_>>());
     }
     Ok(table)
 }
