@@ -127,7 +127,7 @@ pub(super) struct LayerArgs {
     /// [LAYER/]A..B[:KEY=VALUE], over source frames A up to but not including B. The later goes over the earlier.
     #[arg(long, value_name = "A..B:KEY=VALUE", help_heading = SHEET)]
     within: Vec<String>,
-    /// What is outside of passages: timed as usual, or source, the take itself.
+    /// Outside of passages: timed drawings (timed), or the take (source).
     #[arg(long, value_name = "WHAT", help_heading = SHEET)]
     outside: Option<String>,
 }

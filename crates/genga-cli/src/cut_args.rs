@@ -2,7 +2,7 @@
 
 use clap::Args;
 
-use super::headings::CUT;
+use super::headings::SHEET;
 use genga::edits::Edits;
 use genga::error::Error;
 use genga::sheet::{Blank, Sheet};
@@ -12,32 +12,32 @@ use genga::slate::Slate;
 #[derive(Debug, Default, Clone, Args)]
 pub(super) struct CutArgs {
     /// The work, on every sheet.
-    #[arg(long, value_name = "NAME", help_heading = CUT, hide_short_help = true)]
+    #[arg(long, value_name = "NAME", help_heading = SHEET)]
     title: Option<String>,
     /// The episode [default: ep03 in the clip's name, if that has a cut].
-    #[arg(long, value_name = "NUMBER", help_heading = CUT)]
+    #[arg(long, value_name = "NUMBER", help_heading = SHEET)]
     episode: Option<String>,
     /// The scene [default: s12 or sc12 in the name].
-    #[arg(long, value_name = "NUMBER", help_heading = CUT)]
+    #[arg(long, value_name = "NUMBER", help_heading = SHEET)]
     scene: Option<String>,
     /// The cut [default: c045 or c045a in the name].
-    #[arg(long, value_name = "NUMBER", help_heading = CUT)]
+    #[arg(long, value_name = "NUMBER", help_heading = SHEET)]
     cut: Option<String>,
     /// The take [default: t2 or tk2 in the name].
-    #[arg(long, value_name = "NUMBER", help_heading = CUT)]
+    #[arg(long, value_name = "NUMBER", help_heading = SHEET)]
     take_number: Option<String>,
     /// The key animator.
-    #[arg(long, value_name = "NAME", help_heading = CUT, hide_short_help = true)]
+    #[arg(long, value_name = "NAME", help_heading = SHEET)]
     animator: Option<String>,
     /// The koma on which the first drawing stands: --at 25
     ///
     /// Those before it are blank (カラ). A motion stands in its first pose there.
-    #[arg(long, value_name = "KOMA", value_parser = koma, allow_negative_numbers = true, help_heading = CUT)]
+    #[arg(long, value_name = "KOMA", value_parser = koma, allow_negative_numbers = true, help_heading = SHEET)]
     at: Option<usize>,
     /// Koma of the whole cut: --length 72
     ///
     /// Those after the drawings are blank (カラ). A motion stands in its last pose there.
-    #[arg(long, value_name = "KOMA", value_parser = koma, allow_negative_numbers = true, help_heading = CUT)]
+    #[arg(long, value_name = "KOMA", value_parser = koma, allow_negative_numbers = true, help_heading = SHEET)]
     length: Option<usize>,
 }
 

@@ -2,12 +2,10 @@
 
 /// Options of the files that are written.
 pub(super) const FILES: &str = "Files";
-/// Options of the sheet.
+/// Options of the sheet and its cut.
 pub(super) const SHEET: &str = "Sheet";
 /// Corrections of the keys and the timing.
 pub(super) const CORRECTIONS: &str = "Corrections";
-/// Options of the cut that the sheet belongs to.
-pub(super) const CUT: &str = "Cut";
 /// Options of a timesheet that the columns go into.
 pub(super) const INTO: &str = "Existing timesheet";
 /// Rare options, of how the motion is read.
