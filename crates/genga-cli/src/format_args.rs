@@ -21,7 +21,7 @@ use genga_plot::Camera;
 /// Arguments of every command that writes formats.
 #[derive(Debug, Default, Clone, Args)]
 pub(super) struct FormatArgs {
-    /// Write a BVH, like the formats bvh and bvh-keys: stepped or keys.
+    /// Write a BVH, like the formats: stepped (bvh), keys (bvh-keys).
     #[arg(long, value_name = "ROWS", hide_possible_values = true, help_heading = FILES)]
     bvh: Option<BvhRows>,
     /// Camera of the figures: front, side, three-quarter, auto.
@@ -32,7 +32,7 @@ pub(super) struct FormatArgs {
     /// One setting of a format: --with csv.bom=true (repeatable).
     #[arg(long, value_name = "FORMAT.KEY=VALUE", value_parser = assignment, help_heading = FILES)]
     with: Vec<(String, String)>,
-    /// Overwrite changed files and another clip's; painted pictures stay.
+    /// Overwrite changed files and another clip's, not paint.
     ///
     /// Files that were changed since genga wrote them, and the folder of another clip.
     #[arg(long, help_heading = FILES)]
