@@ -2,6 +2,7 @@
 
 mod budget;
 mod joints;
+mod laid;
 mod layer;
 mod looped;
 mod moving;
@@ -29,9 +30,10 @@ use crate::timing::{Omitted, Spaced, with_holds};
 
 pub use budget::Budget;
 use joints::JointStages;
+use laid::Laid;
 pub use layer::LayerBreakdown;
 use layer::{LayerStages, Measured};
-use looped::{Laid, Looped, LoopedLayer, Rounded};
+use looped::{Looped, LoopedLayer, Rounded};
 use moving::{Moving, MovingStages};
 use stage::{Of, Stage};
 pub use stop::Stop;

@@ -4,76 +4,18 @@
 use std::ops::{Range, RangeInclusive};
 use std::sync::Arc;
 
+use super::laid::{ROUNDS, Round};
 use super::layer::LayerBreakdown;
-use crate::edits::{Edits, Rounds};
-use crate::error::Error;
-use crate::keys::{
-    Actions, BodyTurns, Candidate, Candidates, Cycle, Key, LayerKeys, Origin, Walk, Wall,
-};
-use crate::motion::{Clip, laid, middle_round};
+use crate::edits::Edits;
+use crate::keys::{Actions, BodyTurns, Candidate, Candidates, Key, LayerKeys, Origin, Walk, Wall};
+use crate::motion::{Clip, middle_round};
 use crate::recipe::Recipe;
-use crate::sheet::{Drawing, Exposure, Layer, Repeat, Role, Sheet, Source, SpokenLine};
+use crate::sheet::{Drawing, Exposure, Layer, Role, Sheet, Source, SpokenLine};
 use crate::signal::{Signals, Turn};
 use crate::time::{Clock, Frame};
 use crate::timing::{Gone, OmissionReport, StageReport};
 
-/// Number of rounds that are laid end to end. The middle one has a whole round before and behind it.
-const ROUNDS: usize = 3;
-
-/// The clip that the chain runs over.
-#[derive(Debug, Clone)]
-pub(super) struct Laid {
-    pub(super) clip: Arc<Clip>,
-    /// The round, if the clip is laid end to end.
-    pub(super) round: Option<Round>,
-}
-
-/// A round of a loop.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Round {
-    /// First frame of the clip.
-    first: Frame,
-    repeat: Repeat,
-}
-
-impl Laid {
-    /// Lays a clip end to end, at a rate at which a round lasts a whole number of koma.
-    ///
-    /// # Errors
-    /// [`Error::Setting`] when the last pose of the clip is not the first.
-    pub(super) fn new(clip: &Arc<Clip>, koma_rate: Option<f64>) -> Result<Self, Error> {
-        let Some(koma_rate) = koma_rate else {
-            return Ok(Self { clip: Arc::clone(clip), round: None });
-        };
-        let wrong = |message: String| Error::setting("loop", message);
-        let way_out =
-            "genga split --cycles lists the best rounds of a take, and --trim A..B takes one";
-        let cycle = Cycle::of_clip(clip).ok_or_else(|| {
-            let count = clip.len();
-            wrong(format!("{count} frames are too few for a round; {way_out}"))
-        })?;
-        if !cycle.is_repeatable() {
-            let pose = cycle.pose;
-            return Err(wrong(format!(
-                "the last pose is not the first: they are {pose:.1} % of body height apart; {way_out}"
-            )));
-        }
-        let frames = cycle.frames();
-        let koma = (frames as f64 * koma_rate / clip.rate().fps()).round().max(1.0);
-        let repeat = Repeat { frames, koma: koma as usize };
-        let laid = laid(clip, ROUNDS, 0).with_rate(repeat.frame_rate(koma_rate)?);
-        let round = Some(Round { first: clip.first(), repeat });
-        Ok(Self { clip: Arc::new(laid), round })
-    }
-}
-
 impl Round {
-    /// Returns the corrections of the clip in every round.
-    pub(super) fn spread(&self, edits: &Edits) -> Edits {
-        let Self { first, repeat, .. } = *self;
-        edits.in_rounds(Rounds { first, frames: repeat.frames, count: ROUNDS })
-    }
-
     /// Returns the actions of the rounds: those found if the middle round has any, or else every round is one.
     pub(super) fn actions(&self, found: &Actions) -> Vec<Frame> {
         let middle = self.middle();

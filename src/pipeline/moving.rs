@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::looped::Laid;
+use super::laid::Laid;
 use super::stage::{Of, Stage};
 use crate::error::Error;
 use crate::exaggerate::Exaggerate;

@@ -6,6 +6,7 @@ mod row;
 mod station;
 mod steps;
 mod still;
+mod timed;
 
 use std::ops::{Range, RangeInclusive};
 use std::sync::Arc;
@@ -13,12 +14,12 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use self::interval::Interval;
-use self::outside::Timed;
 use self::row::Rules;
 use self::station::{Station, koma_before, stations};
 use self::steps::Steps;
 use self::still::Still;
 pub(crate) use self::still::alike;
+use self::timed::Timed;
 use crate::error::Error;
 use crate::keys::LayerKeys;
 use crate::knob::{Knobs, choices, knob, knobs};

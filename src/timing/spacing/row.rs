@@ -3,10 +3,10 @@
 use std::sync::Arc;
 
 use super::interval::Interval;
-use super::outside::Timed;
 use super::station::Station;
 use super::steps::Steps;
 use super::still::Still;
+use super::timed::Timed;
 use super::{Spaced, Spacing};
 use crate::keys::Wall;
 use crate::sheet::{Drawing, Exposure, Layer};

@@ -3,8 +3,8 @@
 use std::cmp::Reverse;
 use std::sync::Arc;
 
-use super::outside::Timed;
 use super::steps::Steps;
+use super::timed::Timed;
 use crate::keys::{Key, Origin};
 use crate::motion::JointId;
 use crate::sheet::{Drawing, Role, Source, Why};
