@@ -105,9 +105,9 @@ fn a_hand_on_the_map_turns_both_knobs_in_one_step_and_the_map_is_the_same() {
         map.left_bottom() + egui::vec2(40.0 + (x + 0.5) * wide, -30.0 - (y + 0.5) * high)
     };
     table.harness.drag_at(cell(3.0, 1.0));
-    table.harness.run();
+    table.rest();
     table.harness.hover_at(cell(5.0, 7.0));
-    table.harness.run();
+    table.rest();
     assert_eq!(table.recipe().get("filter.width").unwrap(), "0.3s", "while it is dragged");
     table.harness.drop_at(cell(5.0, 7.0));
     table.harness.run();
