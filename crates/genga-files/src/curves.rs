@@ -14,7 +14,7 @@ use genga::motion::Clip;
 use genga::sheet::Sheet;
 use genga::time::Frame;
 
-pub(crate) use fit::{GIRTH, Key, KeyedTake, Track, body_height, turn_between};
+pub(crate) use fit::{GIRTH, Key, KeyedTake, Track, body_height, keys_of, turn_between};
 pub(crate) use samples::Path;
 pub(crate) use spline::Shape;
 

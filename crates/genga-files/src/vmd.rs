@@ -12,7 +12,7 @@ use glam::DQuat;
 use serde::{Deserialize, Serialize};
 
 use crate::csv_table;
-use crate::curves::Curves;
+use crate::curves::{Curves, TOO_FEW, keys_of};
 use crate::humanoid::capture::Capture;
 use crate::humanoid::cast::Cast;
 pub use crate::humanoid::cast::{STILL_LIMB, VmdBones};
@@ -24,7 +24,7 @@ pub use genga::motion::BoneMap;
 use genga::motion::body::names::bones::{Model, cp932};
 use genga::motion::body::names::{Found, SHAPE};
 use genga::motion::{Clip, Composite, JointId, Skeleton, played_out};
-use genga::sheet::{Blank, Exposure, Layer, Sheet, Source};
+use genga::sheet::{Blank, Exposure, Sheet, Source};
 pub use genga_read::MmdModel;
 pub use record::{VmdKey, VmdMotion};
 
@@ -189,17 +189,11 @@ impl Vmd {
             return Err(Error::clip("the clip has no frame: there is no pose to write"));
         }
         let frames = Frames::new(self.fps, sheet.clock.koma_rate)?;
-        let cast = self.cast(clip)?;
-        let Cast { model, found, .. } = &cast;
-        let capture = Capture::new(clip, model, found);
-        let stance = Stance::new(&capture, self.arm_angle.to_radians());
-        let leg = cast.leg.unwrap_or(self.leg);
-        let mut retarget = Retarget::new(&composite, model, &capture, &stance, leg);
-        let report = report(clip.skeleton(), model, found, retarget.scale);
-        let (name, _) = self.name()?;
-        let notes = self.notes(clip, sheet)?;
-        let keys = keys(&composite, (&frames, sheet.blank), &mut retarget)?;
-        Ok(VmdMade { motion: VmdMotion { model: name, keys, ik_off: cast.ik_off }, report, notes })
+        let write = |retarget: &mut Retarget<'_>| {
+            let keys = keys(&composite, (&frames, sheet.blank), retarget)?;
+            Ok((keys, None))
+        };
+        self.made(&composite, sheet, write)
     }
 
     /// Converts the take for the model as keys at the genga of a sheet with MMD's curves between them, which stay within
@@ -215,27 +209,43 @@ impl Vmd {
         if clip.is_empty() {
             return Err(Error::clip("the clip has no frame: there is no pose to write"));
         }
-        let genga = genga_frames(clip, sheet, self.fps)?;
+        let places = genga_places(clip, sheet)?;
+        let genga = frames_at(&places, (self.fps, clip.rate().fps()))?;
         let length = genga[genga.len() - 1] as usize + 1;
-        let first = genga_places(clip, sheet)[0];
         let mut ones = Sheet::on_ones(clip.clock(self.fps), length);
         for drawing in &mut ones.layers[0].drawings {
-            let place = drawing.source.place() + first - clip.first().0 as f64;
+            let place = drawing.source.place() + places[0] - clip.first().0 as f64;
             drawing.source = Source::At(place.min(clip.last().0 as f64));
         }
         let composite = Composite::new(clip, &ones)?;
+        let write = |retarget: &mut Retarget<'_>| {
+            let made = keyed::keyed(clip, retarget, (&genga, length), curves.error);
+            let note = curves.note("keys-vmd", made.frames, made.added, made.error_of_genga);
+            Ok((made.keys, note))
+        };
+        self.made(&composite, &ones, write)
+    }
+
+    /// Makes a motion of the keys that `write` writes, with its note if it has one.
+    fn made(
+        &self,
+        composite: &Composite<'_>,
+        sheet: &Sheet,
+        write: impl FnOnce(&mut Retarget<'_>) -> Result<(Vec<VmdKey>, Option<Warning>), Error>,
+    ) -> Result<VmdMade, Error> {
+        let clip = composite.clip();
         let cast = self.cast(clip)?;
-        let capture = Capture::new(clip, &cast.model, &cast.found);
+        let Cast { model, found, .. } = &cast;
+        let capture = Capture::new(clip, model, found);
         let stance = Stance::new(&capture, self.arm_angle.to_radians());
         let leg = cast.leg.unwrap_or(self.leg);
-        let mut retarget = Retarget::new(&composite, &cast.model, &capture, &stance, leg);
-        let report = report(clip.skeleton(), &cast.model, &cast.found, retarget.scale);
+        let mut retarget = Retarget::new(composite, model, &capture, &stance, leg);
+        let report = report(clip.skeleton(), model, found, retarget.scale);
         let (name, _) = self.name()?;
-        let made = keyed::keyed(clip, &mut retarget, (&genga, length), curves.error);
-        let mut notes = self.notes(clip, &ones)?;
-        notes.extend(curves.note("keys-vmd", made.frames, made.added, made.error_of_genga));
-        let motion = VmdMotion { model: name, keys: made.keys, ik_off: cast.ik_off };
-        Ok(VmdMade { motion, report, notes })
+        let mut notes = self.notes(clip, sheet)?;
+        let (keys, note) = write(&mut retarget)?;
+        notes.extend(note);
+        Ok(VmdMade { motion: VmdMotion { model: name, keys, ik_off: cast.ik_off }, report, notes })
     }
 
     /// Collects the notes of [`Vmd::make`] without making the motion.
@@ -297,25 +307,20 @@ impl Vmd {
 }
 
 /// Returns the places of the genga on all layers, in order of time.
-fn genga_places(clip: &Clip, sheet: &Sheet) -> Vec<f64> {
-    let (first, last) = (clip.first().0 as f64, clip.last().0 as f64);
-    let kept = sheet.layers.iter().flat_map(Layer::shown).filter(|drawing| drawing.role.is_kept());
-    let mut places: Vec<f64> =
-        kept.map(|drawing| drawing.source.place().clamp(first, last)).collect();
+fn genga_places(clip: &Clip, sheet: &Sheet) -> Result<Vec<f64>, Error> {
+    let keys = sheet.layers.iter().flat_map(|layer| keys_of(layer, clip));
+    let mut places: Vec<f64> = keys.map(|key| key.place).collect();
     places.sort_by(f64::total_cmp);
-    places
+    if places.is_empty() { Err(Error::sheet(TOO_FEW)) } else { Ok(places) }
 }
 
-/// Returns the frames of MMD that are nearest to the genga, each once. The first genga is on frame 0.
-fn genga_frames(clip: &Clip, sheet: &Sheet, fps: f64) -> Result<Vec<u32>, Error> {
-    let places = genga_places(clip, sheet);
-    let frame = |place: &f64| ((place - places[0]) * fps / clip.rate().fps()).round();
-    let mut frames: Vec<u32> = places.iter().map(|place| frame(place) as u32).collect();
+/// Returns the frames of MMD that are nearest to some places, each once. The first place is on frame 0; `rate` is that
+/// of the source.
+fn frames_at(places: &[f64], (fps, rate): (f64, f64)) -> Result<Vec<u32>, Error> {
+    let frame = |place: &f64| ((place - places[0]) * fps / rate).round() as u32;
+    let mut frames: Vec<u32> = places.iter().map(frame).collect();
     frames.dedup();
-    if frames.len() < 2 {
-        return Err(Error::sheet(crate::curves::TOO_FEW));
-    }
-    Ok(frames)
+    if frames.len() < 2 { Err(Error::sheet(TOO_FEW)) } else { Ok(frames) }
 }
 
 /// Conversion of koma to frames.

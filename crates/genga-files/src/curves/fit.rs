@@ -106,7 +106,7 @@ impl KeyedTake {
 }
 
 /// Returns the genga that a layer shows, each once, in order of time.
-fn keys_of(layer: &Layer, clip: &Clip) -> Vec<Key> {
+pub(crate) fn keys_of(layer: &Layer, clip: &Clip) -> Vec<Key> {
     let mut is_shown = vec![false; layer.drawings.len()];
     layer.exposures.iter().for_each(|exposure| is_shown[exposure.drawing] = true);
     let drawings = layer.drawings.iter().enumerate();

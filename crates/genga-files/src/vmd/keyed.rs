@@ -36,26 +36,25 @@ pub(super) fn keyed(
 ) -> KeyedMotion {
     let motion = Motion::new(clip, retarget, length);
     let mut frames = genga.to_vec();
-    let mut error_of_genga = None;
-    loop {
-        let (mut worst, mut largest) = (Vec::new(), 0.0);
-        for ends in frames.windows(2) {
-            let span = Span::new(&motion, [ends[0] as usize, ends[1] as usize]);
-            let (frame, off) = span.worst(&motion);
-            largest = f64::max(largest, off);
-            if off > error {
-                worst.push(frame as u32);
-            }
+    let mut error_of_genga = 0.0;
+    let mut open: Vec<[usize; 2]> =
+        genga.windows(2).map(|ends| [ends[0] as usize, ends[1] as usize]).collect();
+    // A curve ends at its keys, so a new key changes no other span.
+    for at in 0.. {
+        let Some(ends) = open.get(at).copied() else { break };
+        let (frame, off) = Span::new(&motion, ends).worst(&motion);
+        if at + 1 < genga.len() {
+            error_of_genga = f64::max(error_of_genga, off);
         }
-        let error_of_genga = *error_of_genga.get_or_insert(largest);
-        if worst.is_empty() {
-            let keys = motion.keys(retarget, &frames);
-            let added = frames.len() - genga.len();
-            return KeyedMotion { keys, frames: frames.len(), added, error_of_genga };
+        if off > error {
+            frames.push(frame as u32);
+            open.extend([[ends[0], frame], [frame, ends[1]]]);
         }
-        frames.extend(worst);
-        frames.sort_unstable();
     }
+    frames.sort_unstable();
+    let keys = motion.keys(retarget, &frames);
+    let added = frames.len() - genga.len();
+    KeyedMotion { keys, frames: frames.len(), added, error_of_genga }
 }
 
 /// The poses of a model on every frame, and the body that they move: the capture's, bone by bone.
