@@ -1,4 +1,4 @@
-//! The cut that a sheet belongs to (カット): its slate, and where the drawings stand in it.
+//! The slate of a cut (カット), and the koma on which its drawings stand.
 
 use clap::Args;
 
@@ -8,7 +8,7 @@ use genga::error::Error;
 use genga::sheet::{Blank, Sheet};
 use genga::slate::Slate;
 
-/// The slate of a cut, and the place of the drawings in it.
+/// Options for the slate of a cut and for the koma of its drawings.
 #[derive(Debug, Default, Clone, Args)]
 pub(super) struct CutArgs {
     /// The work, on every sheet.

@@ -24,7 +24,7 @@ pub(super) struct IntoArgs {
     /// Replace columns of these names, drawings and all.
     #[arg(long, requires = "into", help_heading = INTO)]
     replace: bool,
-    /// What an XDTS gets: action (numbered keys, marks) or cell (all drawings).
+    /// Column for an XDTS: action (numbered keys, marks) or cell (all drawings).
     ///
     /// By default action if it has inbetween marks. A TDTS gets both.
     #[arg(long = "as", value_name = "COLUMN", requires = "into", help_heading = INTO)]
@@ -37,7 +37,7 @@ enum AsColumn {
     Cell,
 }
 
-/// A timesheet with the columns in it, to be written.
+/// The changed timesheet.
 pub(super) struct Filled {
     /// Its file name.
     pub(super) name: String,

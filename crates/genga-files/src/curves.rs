@@ -20,8 +20,8 @@ pub(crate) use spline::Shape;
 
 /// Keys at the genga of a sheet, with smooth curves between them that stay close to the take.
 ///
-/// The keys stand at the times of the take, not of the sheet: holds and omission belong to stepped motion. Where the
-/// genga alone do not bring the curves close enough, more keys are added, each where the curves are furthest off.
+/// Keys have the times of the take; holds and omission change stepped motion only. If the genga are too few for the
+/// allowed error, keys are added where the curves are furthest off.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Curves {
@@ -35,7 +35,7 @@ pub struct Curves {
 pub struct CurveErrors {
     /// Number of keys, on all layers.
     pub keys: usize,
-    /// Number of those that are no genga.
+    /// Number of keys that were added to the genga.
     pub added: usize,
     /// Largest distance of a joint, a tip or skin, as a share of body height.
     pub largest: f64,

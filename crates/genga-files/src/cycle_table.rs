@@ -1,4 +1,4 @@
-//! The cycles of a take, as a table.
+//! The table of a take's cycles.
 
 use crate::{csv_table, number};
 use genga::error::Error;

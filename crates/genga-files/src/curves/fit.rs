@@ -24,7 +24,7 @@ const STRAIGHT: f64 = 0.1;
 pub(crate) struct Key {
     /// Its place in the source, as a fractional frame number.
     pub(crate) place: f64,
-    /// The genga it is, as an index into the layer's drawings; `None` for a key that was added.
+    /// Index of its genga among the layer's drawings; `None` for an added key.
     pub(crate) drawing: Option<usize>,
 }
 
@@ -204,7 +204,7 @@ struct Ruler {
     reaches: Vec<f64>,
     /// The joint of each tip.
     tips: Vec<usize>,
-    /// The layers that move each joint: its own and those of its ancestors.
+    /// Layers that move each joint, those of its ancestors included.
     moved_by: Vec<Vec<usize>>,
     /// Whole frames from the first key to the last.
     frames: RangeInclusive<usize>,
@@ -269,7 +269,7 @@ pub(crate) fn turn_between(a: DQuat, b: DQuat) -> f64 {
     2.0 * (a - b).length().min((a + b).length())
 }
 
-/// The body of the take beside that of the curves.
+/// The bodies of the take and of the curves on one frame.
 struct Bodies<'a> {
     poser: Poser<'a>,
     pose: Pose,
