@@ -33,7 +33,8 @@ fn said(place: &Place, args: &str) -> String {
 }
 
 fn change(place: &Place, name: &str) -> Vec<u8> {
-    let changed = [fs::read(place.path(name)).unwrap(), b"mine".to_vec()].concat();
+    // A comment in a recipe, which is read again.
+    let changed = [fs::read(place.path(name)).unwrap(), b"# mine".to_vec()].concat();
     fs::write(place.path(name), &changed).unwrap();
     changed
 }
@@ -119,6 +120,11 @@ fn nothing_that_a_person_changed_is_written_over_unless_forced() {
         assert_ne!(fs::read(place.path(&file)).unwrap(), changed);
         assert_eq!(fs::read(place.path(&file)).unwrap(), written);
     }
+    // A recipe that cannot be read says how to go without its corrections.
+    fs::write(place.path("a/recipe.toml"), "mine").unwrap();
+    let said = place.refused(2, "run data/kick.bvh --out a --force");
+    assert!(said.contains("a/recipe.toml:1:5") && said.contains("--fresh"), "{said}");
+    place.done(&format!("run data/kick.bvh {images} --out a --force --fresh"));
     // Deliver spares changed files as well, and unknown ones too.
     change(&place, "a/keys.csv");
     let said = place.refused(2, "deliver a/sheet.json data/kick.bvh --to csv");

@@ -7,7 +7,6 @@ const { Parser } = require('mmd-parser');
 // What mmd-parser makes of the 64 bytes of a linear key.
 const row = [20, 20, 20, 20, 20, 20, 20, 20, 107, 107, 107, 107, 107, 107, 107, 107];
 const linear = [0, 1, 2, 3].flatMap((shift) => [...row.slice(shift), ...Array(shift).fill(0)]);
-linear[2] = linear[3] = 0;
 
 for (const stem of process.argv.slice(2)) {
   const meant = JSON.parse(fs.readFileSync(`${stem}.json`, 'utf8'));

@@ -14,14 +14,15 @@ pub(super) const LINEAR_CURVE: [u8; 4] = [20, 20, 107, 107];
 /// The curves of a key that moves straight in all channels.
 pub(crate) const LINEAR: [[u8; 4]; 4] = [LINEAR_CURVE; 4];
 
-/// Lays out the curves of a key as MMD writes them: a row of 16 bytes, each coordinate of all four curves, followed by
-/// the same row shifted left by 1, 2 and 3 and filled with zeros. Bytes 2 and 3 of the first row are zero because newer
-/// versions keep a physics switch there.
+/// Lays out the curves of a key: a row of 16 bytes, each coordinate of all four curves, followed by the same row shifted
+/// left by 1, 2 and 3 and filled with zeros. MMD reads every fourth byte of each row; several players (three.js, saba)
+/// read the first row alone. Newer versions of MMD keep a physics switch in bytes 2 and 3 (0 on, 99 15 off), so their own
+/// files turn wrongly in those players. The curves stay there, as in older files; no handle here is 99 15.
 fn interpolation(curves: &[[u8; 4]; 4]) -> [u8; 64] {
     let mut bytes = [0; 64];
     for (at, byte) in bytes.iter_mut().enumerate() {
         let place = at / 16 + at % 16;
-        if place < 16 && !(2..4).contains(&at) {
+        if place < 16 {
             *byte = curves[place % 4][place / 4];
         }
     }
@@ -115,9 +116,9 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_linear_key_has_the_bytes_that_mmd_writes() {
+    fn the_first_row_has_all_curves() {
         let rows = [
-            [20, 20, 0, 0, 20, 20, 20, 20, 107, 107, 107, 107, 107, 107, 107, 107],
+            [20, 20, 20, 20, 20, 20, 20, 20, 107, 107, 107, 107, 107, 107, 107, 107],
             [20, 20, 20, 20, 20, 20, 20, 107, 107, 107, 107, 107, 107, 107, 107, 0],
             [20, 20, 20, 20, 20, 20, 107, 107, 107, 107, 107, 107, 107, 107, 0, 0],
             [20, 20, 20, 20, 20, 107, 107, 107, 107, 107, 107, 107, 107, 0, 0, 0],
