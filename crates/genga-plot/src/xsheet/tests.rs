@@ -115,7 +115,8 @@ fn a_cut_that_is_entered_late_is_blank_before_and_has_its_koma_behind() {
 
 #[test]
 fn camera_work_stands_in_the_camera_column() {
-    let work = |begin, koma, words: &str| CameraWork { begin, koma, words: words.into() };
+    let work =
+        |begin, koma, words: &str| CameraWork { begin, koma, words: words.into(), is_guess: false };
     let camera = vec![work(2, 12, "PAN"), work(80, 20, "T.U")];
     let sheet = Sheet { camera, ..sheet(vec![layer("A", &[('e', 144)])]) };
     let page = XSheet::default().draw("kick", &clip(), &sheet).unwrap().remove(0);
