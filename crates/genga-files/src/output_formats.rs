@@ -6,7 +6,7 @@ use std::fmt;
 use crate::cut_folder;
 use crate::settings::Settings;
 use crate::{
-    Cut, Drawings, Rows, Sink, after_effects, columns_csv, figures, keys_bvh, limited_bvh,
+    Cut, Drawings, Glb, Rows, Sink, after_effects, columns_csv, figures, keys_bvh, limited_bvh,
     pictures, remap_csv, sheet_csv, sheet_json, sts, vrma, xsheet,
 };
 use genga::error::{Error, Warning};
@@ -186,11 +186,15 @@ pub const FORMATS: &[Format] = &[
         help: "motion for MikuMikuDance, with a table of joints and their bones",
         japanese: "MMDモーション",
         goes_to: "MMD, VRM",
-        files: &["CUT.vmd", "CUT-bones.csv"],
+        files: &["CUT.vmd", "CUT-bones.csv", "CUT-camera.vmd"],
         make: |cut, settings, put| {
             let made = settings.vmd.make(cut.clip, cut.sheet)?;
             put(&cut.file("CUT.vmd"), &made.motion.bytes()?)?;
-            put(&cut.file("CUT-bones.csv"), &settings.csv.encode(made.report.csv()?))
+            put(&cut.file("CUT-bones.csv"), &settings.csv.encode(made.report.csv()?))?;
+            match &made.camera {
+                Some(camera) => put(&cut.file("CUT-camera.vmd"), &camera.bytes()?),
+                None => Ok(()),
+            }
         },
         notes: |cut, settings| settings.vmd.notes(cut.clip, cut.sheet),
         ..PLAIN
@@ -202,6 +206,7 @@ pub const FORMATS: &[Format] = &[
         goes_to: "3-D programs",
         files: &["limited.glb"],
         make: |cut, settings, put| put("limited.glb", &settings.glb.write(cut.clip, cut.sheet)?),
+        notes: |cut, _| Ok(Glb::notes("glb", cut.clip)),
         ..PLAIN
     },
     Format {
@@ -229,7 +234,11 @@ pub const FORMATS: &[Format] = &[
             let made = settings.glb.write_keys(cut.clip, cut.sheet, &settings.curves)?;
             put("keys.glb", &made)
         },
-        notes: |cut, settings| settings.curves.notes(cut.clip, cut.sheet),
+        notes: |cut, settings| {
+            let mut notes = settings.curves.notes(cut.clip, cut.sheet)?;
+            notes.extend(Glb::notes("keys-glb", cut.clip));
+            Ok(notes)
+        },
         ..PLAIN
     },
     Format {
