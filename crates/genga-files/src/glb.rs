@@ -18,7 +18,7 @@ use crate::curves::Curves;
 use crate::timeline::{Others, Timeline};
 use binary::Binary;
 use bones::Bones;
-use genga::error::{Error, Warning};
+use genga::error::Error;
 use genga::knob::{Knobs, choices, knob, knobs};
 use genga::motion::{Axis, Cels, Clip, Composite, Stature, Unit, played_out};
 use genga::sheet::{Layer, Sheet};
@@ -199,11 +199,6 @@ impl Glb {
         }
         document["animations"] = Value::Array(animations);
         Ok(binary.into_glb(document))
-    }
-
-    /// Names what the clip's file holds beside the body and this file does not.
-    pub(crate) fn notes(format: &str, clip: &Clip) -> Vec<Warning> {
-        others::unpassed(format, clip)
     }
 
     /// Writes the take as keys at the genga with smooth curves between them: `CUBICSPLINE` samplers, `LINEAR` ones

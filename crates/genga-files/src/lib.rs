@@ -7,6 +7,7 @@
 
 mod action_table;
 mod after_effects;
+mod beside;
 mod column_table;
 mod comparison_table;
 mod curves;

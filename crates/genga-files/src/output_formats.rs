@@ -2,11 +2,12 @@
 
 use std::fmt;
 
+use crate::beside::{Passes, unpassed};
 #[cfg(feature = "images")]
 use crate::cut_folder;
 use crate::settings::Settings;
 use crate::{
-    Cut, Drawings, Glb, Rows, Sink, after_effects, columns_csv, figures, keys_bvh, limited_bvh,
+    Cut, Drawings, Rows, Sink, after_effects, columns_csv, figures, keys_bvh, limited_bvh,
     pictures, remap_csv, sheet_csv, sheet_json, sts, vrma, xsheet,
 };
 use genga::error::{Error, Warning};
@@ -191,10 +192,7 @@ pub const FORMATS: &[Format] = &[
             let made = settings.vmd.make(cut.clip, cut.sheet)?;
             put(&cut.file("CUT.vmd"), &made.motion.bytes()?)?;
             put(&cut.file("CUT-bones.csv"), &settings.csv.encode(made.report.csv()?))?;
-            match &made.camera {
-                Some(camera) => put(&cut.file("CUT-camera.vmd"), &camera.bytes()?),
-                None => Ok(()),
-            }
+            made.put_camera(&cut.file("CUT-camera.vmd"), put)
         },
         notes: |cut, settings| settings.vmd.notes(cut.clip, cut.sheet),
         ..PLAIN
@@ -206,7 +204,7 @@ pub const FORMATS: &[Format] = &[
         goes_to: "3-D programs",
         files: &["limited.glb"],
         make: |cut, settings, put| put("limited.glb", &settings.glb.write(cut.clip, cut.sheet)?),
-        notes: |cut, _| Ok(Glb::notes("glb", cut.clip)),
+        notes: |cut, _| Ok(unpassed("glb", cut.clip, Passes::Gltf).into_iter().collect()),
         ..PLAIN
     },
     Format {
@@ -214,10 +212,11 @@ pub const FORMATS: &[Format] = &[
         help: "few keys for MikuMikuDance, at the genga, with its curves between them",
         japanese: "MMDのキーと補間曲線",
         goes_to: "MMD, VRM",
-        files: &["CUT-keys.vmd"],
+        files: &["CUT-keys.vmd", "CUT-keys-camera.vmd"],
         make: |cut, settings, put| {
             let made = settings.vmd.make_keys(cut.clip, cut.sheet, &settings.curves)?;
-            put(&cut.file("CUT-keys.vmd"), &made.motion.bytes()?)
+            put(&cut.file("CUT-keys.vmd"), &made.motion.bytes()?)?;
+            made.put_camera(&cut.file("CUT-keys-camera.vmd"), put)
         },
         notes: |cut, settings| {
             Ok(settings.vmd.make_keys(cut.clip, cut.sheet, &settings.curves)?.notes)
@@ -236,7 +235,7 @@ pub const FORMATS: &[Format] = &[
         },
         notes: |cut, settings| {
             let mut notes = settings.curves.notes(cut.clip, cut.sheet)?;
-            notes.extend(Glb::notes("keys-glb", cut.clip));
+            notes.extend(unpassed("keys-glb", cut.clip, Passes::Gltf));
             Ok(notes)
         },
         ..PLAIN
@@ -251,7 +250,11 @@ pub const FORMATS: &[Format] = &[
             let made = vrma::write(cut.clip, cut.sheet, settings.vmd.map.as_ref())?;
             put(&cut.file("CUT.vrma"), &made)
         },
-        notes: |cut, settings| vrma::notes(cut.clip, settings.vmd.map.as_ref()),
+        notes: |cut, settings| {
+            let mut notes = vrma::notes(cut.clip, settings.vmd.map.as_ref())?;
+            notes.extend(unpassed("vrma", cut.clip, Passes::Nothing));
+            Ok(notes)
+        },
         ..PLAIN
     },
     Format {

@@ -187,8 +187,11 @@ impl<'a> Retimed<'a> {
         let mut before: Option<&Part> = None;
         for part in parts {
             self.enter(part, before);
-            let inside = |place: f64| part.from < place && place < part.to;
-            for place in self.track.places.iter().copied().filter(|place| inside(*place)) {
+            let keys = &self.track.places;
+            let first = keys.partition_point(|place| *place <= part.from);
+            let past = keys.partition_point(|place| *place < part.to);
+            for key in first..past {
+                let place = self.track.places[key];
                 let koma = part.begin + (place - part.from) / part.pace();
                 self.add(koma, place, [part.pace(); 2]);
             }
@@ -210,7 +213,7 @@ impl<'a> Retimed<'a> {
     fn enter(&mut self, part: &Part, before: Option<&Part>) {
         let keys = &self.track.places;
         let (first, last) = (keys[0], keys[keys.len() - 1]);
-        let is_key = keys.contains(&part.from);
+        let is_key = keys.binary_search_by(|key| key.total_cmp(&part.from)).is_ok();
         let is_curve = self.track.between != Between::Step;
         // Before its first key a track has that key's value, and after its last one that of the last.
         let is_outside = part.from < first || part.from > last && !self.places.is_empty();

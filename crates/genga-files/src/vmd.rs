@@ -12,6 +12,8 @@ use std::collections::HashSet;
 use glam::DQuat;
 use serde::{Deserialize, Serialize};
 
+use crate::Sink;
+use crate::beside::{Passes, unpassed};
 use crate::csv_table;
 use crate::curves::{Curves, TOO_FEW, keys_of};
 use crate::humanoid::capture::Capture;
@@ -28,7 +30,7 @@ use genga::motion::body::names::{Found, SHAPE};
 use genga::motion::{Clip, Composite, JointId, Skeleton, played_out};
 use genga::sheet::{Blank, Exposure, Sheet, Source};
 pub use genga_read::MmdModel;
-use genga_read::{GltfScene, VmdBeside};
+use genga_read::VmdBeside;
 use passed::Passing;
 pub use record::{VmdCameraMotion, VmdFaceKey, VmdKey, VmdMotion};
 
@@ -284,7 +286,7 @@ impl Vmd {
         notes.extend(self.name()?.1);
         notes.extend((!cast.has_leg()).then(no_legs));
         notes.extend(cast.notes);
-        notes.extend(unpassed(clip));
+        notes.extend(unpassed("vmd", clip, Passes::Vmd));
         Ok(notes)
     }
 
@@ -330,6 +332,11 @@ impl Vmd {
 }
 
 impl VmdMade {
+    /// Hands over the camera's file, if there is one.
+    pub(crate) fn put_camera(&self, name: &str, put: &mut Sink<'_>) -> Result<(), Error> {
+        self.camera.as_ref().map_or(Ok(()), |camera| put(name, &camera.bytes()?))
+    }
+
     /// Adds what the source holds beside the body.
     fn passing(mut self, beside: Option<&VmdBeside>, passing: &Passing<'_>) -> Result<Self, Error> {
         if let Some(beside) = beside {
@@ -344,14 +351,6 @@ impl VmdMade {
 /// What a VMD holds beside the body of a clip.
 fn kept(clip: &Clip) -> Option<&VmdBeside> {
     clip.beside().and_then(|beside| beside.kept())
-}
-
-/// Names what another format holds beside the body, which a VMD cannot take over.
-fn unpassed(clip: &Clip) -> Option<Warning> {
-    let scene = clip.beside().and_then(|beside| beside.kept::<GltfScene>())?;
-    let message =
-        format!("vmd: what the file holds beside the body is not in it ({})", scene.words()?);
-    Some(Warning::new("W_NOT_PASSED", message))
 }
 
 /// Returns the places of the genga on all layers, in order of time.

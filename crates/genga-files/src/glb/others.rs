@@ -6,9 +6,8 @@ use serde_json::{Value, json};
 use super::Space;
 use super::binary::{Binary, Use};
 use crate::timeline::Timeline;
-use genga::error::Warning;
 use genga::motion::Clip;
-use genga_read::{Between, Carrier, GltfScene, GltfTrack, Track, VmdBeside};
+use genga_read::{Between, Carrier, GltfScene, GltfTrack, Track};
 
 /// The nodes that the source holds beside the body, in the new document.
 pub(super) struct Hung<'a> {
@@ -20,20 +19,6 @@ pub(super) struct Hung<'a> {
 /// The nodes that a clip's file holds beside the body, if it is a glTF that has some.
 pub(super) fn scene_of(clip: &Clip) -> Option<&GltfScene> {
     clip.beside()?.kept::<GltfScene>().filter(|scene| !scene.nodes.is_empty())
-}
-
-/// Names what the file holds beside the body that is not in a GLB.
-pub(super) fn unpassed(format: &str, clip: &Clip) -> Vec<Warning> {
-    let Some(beside) = clip.beside() else { return Vec::new() };
-    let lost = beside.kept::<GltfScene>().map(|scene| scene.lost.join(", "));
-    let of_mmd = beside.kept::<VmdBeside>().and_then(VmdBeside::words);
-    let all = lost.into_iter().filter(|lost| !lost.is_empty()).chain(of_mmd);
-    let note = |what: String| {
-        let message =
-            format!("{format}: what the file holds beside the body is not all in it ({what})");
-        Warning::new("W_NOT_PASSED", message)
-    };
-    all.map(note).collect()
 }
 
 impl<'a> Hung<'a> {

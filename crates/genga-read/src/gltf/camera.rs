@@ -7,6 +7,9 @@ use crate::posed::Stand;
 use genga::maths;
 use genga::motion::{CameraPath, CameraPose, Lens};
 
+/// Most cameras whose ways are read: those of a lying file could fill the memory.
+const MOST: usize = 16;
+
 /// The nodes that carry a camera, with its lens, and their ways so far.
 pub(super) struct Cameras {
     nodes: Vec<(usize, Lens)>,
@@ -23,7 +26,7 @@ impl Cameras {
             let name = name.unwrap_or_else(|| format!("of node {node}"));
             Some(((node, lens(optics)?), CameraPath { name, poses: Vec::new() }))
         });
-        let (nodes, paths) = carried.unzip();
+        let (nodes, paths) = carried.take(MOST).unzip();
         Self { nodes, paths }
     }
 

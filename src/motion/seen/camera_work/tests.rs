@@ -107,6 +107,14 @@ fn a_pan_is_found_under_a_shake_and_a_slow_one_too() {
 }
 
 #[test]
+fn a_long_movement_is_one_and_a_long_shake_takes_no_time() {
+    let long = work(5000, |frame| pose(AT + 0.002 * frame * DVec3::X, [0.0; 3], 1.0));
+    assert_eq!(found(&long), [(0, 5000, "PAN")]);
+    let shake = |frame: f64| pose(AT + (frame % 2.0) * DVec3::Y, [0.0; 3], 1.0);
+    assert!(work(20_000, shake).is_empty());
+}
+
+#[test]
 fn movements_one_after_another_stand_one_after_another() {
     let camera = |frame: f64| {
         let (pan, near) = (between(frame, 10.0, 70.0), between(frame, 40.0, 100.0));

@@ -2,9 +2,10 @@
 
 use super::super::{Vmd, VmdMade};
 use super::rests::{kick, on_ones};
+use crate::Curves;
 use crate::timeline::Others;
 use genga::motion::Clip;
-use genga::sheet::{Blank, Exposure, Sheet};
+use genga::sheet::{Blank, Exposure, Role, Sheet};
 use genga_read::{Options, VmdBeside};
 
 /// A morph's key: name, frame, weight.
@@ -164,6 +165,18 @@ fn stepped_faces_stay_and_jump() {
     let camera = made.camera.unwrap().keys;
     let x = |frame: u32| camera.iter().rfind(|key| key.frame <= frame).unwrap().values[1];
     assert!(x(13) == x(12) && x(15) > x(12));
+}
+
+#[test]
+fn keys_with_curves_take_face_and_camera_along() {
+    let clip = read(&file());
+    let mut sheet = Sheet::on_ones(clip.clock(30.0), clip.len());
+    for at in [0, 60, clip.len() - 1] {
+        sheet.layers[0].drawings[at].role = Role::Genga;
+    }
+    let made = Vmd::default().make_keys(&clip, &sheet, &Curves::default()).unwrap();
+    assert_eq!(frames(&made.motion.faces, |key| key.frame), [0, 10, 30, 60]);
+    assert_eq!(made.camera.unwrap().keys, beside(&clip).camera.keys);
 }
 
 #[test]
