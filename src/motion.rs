@@ -43,15 +43,15 @@ pub use body::{
 pub(crate) use clip::rotation_axes;
 pub(crate) use clip::turn_columns;
 pub use clip::{
-    Body, Channel, Clip, Declared, EndSite, Joint, JointId, Pose, Poser, RowWriter, Skeleton, Word,
-    local_rotation, local_translation, set_local_rotation,
+    Beside, Body, CameraPath, CameraPose, Channel, Clip, Declared, EndSite, Joint, JointId, Lens,
+    Pose, Poser, RowWriter, Skeleton, Word, local_rotation, local_translation, set_local_rotation,
 };
 pub use composite::Cels;
 pub use composite::layer_of;
 pub(crate) use composite::travellers;
 pub use composite::{Composite, CompositePoser, CompositeRows};
 pub use laid::{first_round, laid, middle_round, played_out};
-pub use seen::{Camera, Eye, Screen, SeenFrom};
+pub use seen::{Camera, Eye, Screen, SeenFrom, camera_work};
 pub(crate) use stream::GIB;
 pub use stream::StreamLimit;
 pub use stream::bytes_in_words;

@@ -20,7 +20,7 @@ use crate::error::Error;
 use crate::keys::{
     ActionFinder, Actions, BodyTurns, Key, LayerJoints, LayerKeys, Layers, Reconstruction,
 };
-use crate::motion::{Clip, Screen, SeenFrom};
+use crate::motion::{Clip, Screen, SeenFrom, camera_work};
 use crate::recipe::Recipe;
 use crate::sheet::{CameraWork, Feet, RootMotion, Sheet, SpokenLine};
 use crate::signal::{Signals, Spectrum, Speed, Turn};
@@ -526,11 +526,12 @@ impl Engine {
     fn sheet(&mut self, recipe: &Recipe, edits: &Edits) -> Result<(), Error> {
         let layers = &self.layers[..self.split.output().len()];
         let layers: Vec<_> = layers.iter().map(LayerStages::timed).collect();
-        let laid = &self.laid.output().value().clip;
+        let output = self.laid.output();
+        let laid = &output.value().clip;
         let of = (laid.clock(recipe.rate), recipe.root, recipe.feet, laid.last());
         let in_cut = (edits.at, edits.length, edits.slate.clone(), edits.camera.clone());
         let settings = (of, edits.holds.clone(), edits.speech.clone(), in_cut);
-        self.sheets.try_make(layers, settings, |layers, settings| {
+        self.sheets.try_make((output, layers), settings, |(laid, layers), settings| {
             let ((clock, root, feet, last), holds, speech, (at, end, slate, cues)) = settings;
             let held = |(spaced, omitted): (Of<'_, Spaced>, Of<'_, Omitted>)| {
                 let spaced = &spaced.value().layer;
@@ -546,6 +547,8 @@ impl Engine {
                 let camera = cues.iter().filter_map(|cue| cue.on_sheet(*clock, *last, length));
                 let mut camera: Vec<CameraWork> = camera.collect();
                 camera.sort_by_key(|work| work.begin);
+                let camera =
+                    CameraWork::with_guesses(camera, camera_work(&laid.value().clip, &sheet));
                 Sheet { lines, camera, slate: slate.clone(), ..sheet }.placed(*at, *end)
             };
             Ok([sheet(spaced)?, sheet(layers)?])

@@ -1,5 +1,7 @@
 //! A motion clip: a skeleton and one flat table of channel values, frame after frame.
 
+mod beside;
+mod camera_path;
 mod channels;
 mod declared;
 mod kinematics;
@@ -8,6 +10,8 @@ mod poser;
 pub(crate) mod rig;
 mod skeleton;
 
+pub use beside::Beside;
+pub use camera_path::{CameraPath, CameraPose, Lens};
 pub use channels::{RowWriter, set_local_rotation};
 pub(crate) use channels::{rotation_axes, turn_columns};
 pub use declared::{Declared, Word};
@@ -15,7 +19,7 @@ pub use kinematics::{Body, Pose, local_rotation, local_translation};
 pub use poser::Poser;
 pub use skeleton::{Channel, EndSite, Joint, JointId, Skeleton};
 
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 use crate::error::Error;
 use crate::time::{Clock, Frame, FrameRate};
@@ -26,7 +30,8 @@ const LARGEST: f64 = 1e12;
 /// A motion clip (モーション). The values are kept as written and never converted, so that a drawing of a source frame is
 /// written back as the same numbers.
 ///
-/// Two clips are equal if their values are; what is [declared](Declared) of them does not count.
+/// Two clips are equal if their values are; what is [declared](Declared) of them or stands [beside](Beside) the body does
+/// not count.
 #[derive(Debug, Clone)]
 pub struct Clip {
     skeleton: Skeleton,
@@ -35,6 +40,7 @@ pub struct Clip {
     frames: usize,
     values: Vec<f64>,
     declared: Declared,
+    beside: Option<Arc<Beside>>,
     /// Range of each column, computed on first use.
     ranges: OnceLock<Vec<f64>>,
 }
@@ -90,7 +96,7 @@ impl Clip {
         debug_assert_eq!(values.len(), frames * skeleton.channels());
         debug_assert!(values.iter().all(|value| value.is_finite()));
         let (declared, ranges) = (Declared::default(), OnceLock::new());
-        Self { skeleton, rate, first, frames, values, declared, ranges }
+        Self { skeleton, rate, first, frames, values, declared, beside: None, ranges }
     }
 
     /// Checks that no value exceeds 10¹², so that computations cannot overflow.
@@ -277,7 +283,22 @@ impl Clip {
         assert_eq!(values.len(), self.values.len(), "as many values as before");
         let new =
             Self::of_finite(self.skeleton.clone(), self.rate, self.first, self.frames, values);
-        new.with_declared(self.declared)
+        new.with_declared(self.declared).with_beside_of(self)
+    }
+
+    /// What the file holds beside the body; `None` if nothing.
+    pub fn beside(&self) -> Option<&Beside> {
+        self.beside.as_deref()
+    }
+
+    /// Takes over what the file of another clip holds beside the body. Both have the same frames.
+    pub fn with_beside_of(self, other: &Self) -> Self {
+        Self { beside: other.beside.clone(), ..self }
+    }
+
+    /// Replaces what the file holds beside the body. Its frames are those of the file.
+    pub fn with_beside(self, beside: Beside) -> Self {
+        Self { beside: Some(Arc::new(beside)), ..self }
     }
 
     /// Facts about the motion that a file or a person declares.

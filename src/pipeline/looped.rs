@@ -94,7 +94,8 @@ impl Round {
     pub(super) fn cut(&self, all: &Rounded<'_>, recipe: &Recipe, edits: &Edits) -> Looped {
         let is_drawn = !recipe.exaggerate.is_off();
         let frames = self.repeat.frames;
-        let round = || Arc::new(middle_round(all.drawn).with_rate(all.source.rate()));
+        let drawn = || middle_round(all.drawn).with_rate(all.source.rate());
+        let round = || Arc::new(drawn().with_beside_of(all.source));
         let clip = if is_drawn { round() } else { Arc::clone(all.source) };
         let clock = all.source.clock(recipe.rate);
         let signals = |signals: &Signals| Signals {

@@ -79,6 +79,13 @@ impl<T: Inputs> Inputs for Vec<T> {
     }
 }
 
+/// An input, and one per layer.
+impl<A, T: Inputs> Inputs for (Of<'_, A>, Vec<T>) {
+    fn made(&self) -> Vec<Made> {
+        std::iter::once(self.0.made).chain(self.1.made()).collect()
+    }
+}
+
 /// The last output of a stage, with the inputs and the settings that made it.
 #[derive(Debug)]
 pub(super) struct Stage<Settings, Output> {

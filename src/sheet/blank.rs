@@ -70,12 +70,15 @@ impl Sheet {
             Some(SpokenLine { begin, koma, ..line.clone() })
         };
         let lines: Vec<SpokenLine> = self.lines.iter().filter_map(moved).collect();
-        let camera = self.camera.iter().filter_map(|work| moved(&work.line()));
-        let camera: Vec<SpokenLine> = camera.collect();
+        let length = later + self.length() + blank.after;
+        let work = |work: &CameraWork| {
+            let line = moved(&work.line()).filter(|line| line.begin < length)?;
+            let koma = line.koma.min(length - line.begin);
+            Some(CameraWork { begin: line.begin, koma, ..work.clone() })
+        };
+        let camera = self.camera.iter().filter_map(work).collect();
         // The sheet's own function cuts off what lies beyond its end.
-        let placed = Self { blank, lines: vec![], camera: vec![], ..self };
-        let camera = placed.clone().with_lines(&camera).lines.into_iter();
-        Self { camera: camera.map(CameraWork::from_line).collect(), ..placed }.with_lines(&lines)
+        Self { blank, lines: vec![], camera, ..self }.with_lines(&lines)
     }
 
     /// Returns the sheet with its first drawing on koma `at` of a cut of `length` koma, both from 1. `None` keeps the

@@ -59,7 +59,10 @@ mod same_take;
 mod small_gestures; // somebody sits, stands or talks // a take in another format has the same keys
 
 mod camera; // movement as seen by a camera
+mod camera_work; // the CAMERA column, and what stands beside the body
 
+#[path = "../stage.rs"]
+mod stage; // makes a stage with a camera, a sword and a prop
 mod studies; // one or two settings varied, as tables and pictures
 mod targets; // numbers of keys and drawings on every real clip
 

@@ -71,6 +71,11 @@ pub(super) struct Reading {
     /// For a motion without one; an .asf beside its .amc is found.
     #[arg(long, value_name = "FILE", help_heading = READING)]
     skeleton: Option<PathBuf>,
+    /// Camera of the take, in a file of its own (.vmd, .glb, .gltf).
+    ///
+    /// Its moves fill the CAMERA column. The keys of a VMD are written in the sheet's time, beside the motion for MMD.
+    #[arg(long, value_name = "FILE", hide_short_help = true, help_heading = READING)]
+    pub(super) camera_work: Option<PathBuf>,
     /// Keep frames that fly off, and broken ends.
     ///
     /// Glitches are single frames that fly off, and ends at which the tracker comes from the origin.
@@ -208,11 +213,22 @@ impl Reading {
         if path.is_dir() {
             return Err(Failure::AskedWrongly(folder(path)));
         }
-        let Self { fps, root, take, up, skeleton, repair, strict, memory, .. } = self.clone();
+        let Self { fps, root, take, up, skeleton, repair, strict, memory, camera_work, .. } =
+            self.clone();
         let stream = memory.map_or(StreamLimit::default(), StreamLimit::gib);
         let bones = self.bones()?;
-        let options =
-            genga_read::Options { strict, repair, fps, root, take, skeleton, up, bones, stream };
+        let options = genga_read::Options {
+            strict,
+            repair,
+            fps,
+            root,
+            take,
+            skeleton,
+            camera: camera_work,
+            up,
+            bones,
+            stream,
+        };
         let read = if paths::is_stream(path) {
             options.read(&files::read_up_to(stream, path)?)
         } else {

@@ -1,11 +1,11 @@
-//! The slate of a cut (カット), and the koma on which its drawings stand.
+//! The slate of a cut (カット), the koma on which its drawings stand, and its camera work.
 
 use clap::Args;
 
 use super::headings::SHEET;
 use genga::edits::Edits;
 use genga::error::Error;
-use genga::sheet::{Blank, Sheet};
+use genga::sheet::{Blank, CameraWork, Sheet};
 use genga::slate::Slate;
 
 /// Options for the slate of a cut and for the koma of its drawings.
@@ -76,7 +76,10 @@ impl CutArgs {
     }
 }
 
-/// Describes the slate of a sheet and its blank koma, a line each. `name` is that of the cut's files.
+/// Most guesses of camera work in a line.
+const GUESSES: usize = 8;
+
+/// Describes the slate of a sheet, its blank koma and the camera work that is guessed, a line each. `name` is that of the cut's files.
 pub(super) fn lines(sheet: &Sheet, name: &str) -> Vec<String> {
     let of_name = Slate::from_name(name);
     let slate = sheet.slate.clone().over(of_name.clone());
@@ -89,7 +92,22 @@ pub(super) fn lines(sheet: &Sheet, name: &str) -> Vec<String> {
     if !sheet.blank.is_none() {
         lines.push(format!("blank       カラ       {}", blank(sheet)));
     }
+    let guesses: Vec<&CameraWork> = sheet.camera.iter().filter(|work| work.is_guess).collect();
+    if !guesses.is_empty() {
+        lines.push(format!("camera      カメラ     {}", guessed(&guesses)));
+    }
     lines
+}
+
+/// Describes camera work that is guessed from the camera's motion.
+fn guessed(guesses: &[&CameraWork]) -> String {
+    let koma =
+        |work: &&CameraWork| format!("{} koma {}", work.words, range(work.begin + 1, work.past()));
+    let mut said: Vec<String> = guesses.iter().take(GUESSES).map(koma).collect();
+    let more = guesses.len().saturating_sub(GUESSES);
+    said.extend((more > 0).then(|| format!("… {more} more")));
+    let said = said.join(", ");
+    format!("{said}: guessed from the camera's motion; [[edits.camera]] goes over it")
 }
 
 /// Describes the blank koma of a sheet.

@@ -106,7 +106,8 @@ impl PlanArgs {
     pub(super) fn files(&self) -> impl Iterator<Item = &Path> {
         let Corrections { freeze, pin_from, seen, .. } = &self.corrections;
         let sheet = freeze.as_deref().filter(|path| path.is_file());
-        sheet.into_iter().chain(pin_from.as_deref()).chain(camera_args::file(seen))
+        let camera = self.clip.part.reading().camera_work.as_deref();
+        sheet.into_iter().chain(pin_from.as_deref()).chain(camera_args::file(seen)).chain(camera)
     }
 }
 

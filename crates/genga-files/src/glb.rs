@@ -6,6 +6,7 @@ pub(crate) mod bones;
 mod hold;
 mod keyed;
 mod mesh;
+mod others;
 #[cfg(test)]
 mod tests;
 
@@ -14,12 +15,15 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
 use crate::curves::Curves;
+use crate::timeline::{Others, Timeline};
 use binary::Binary;
 use bones::Bones;
 use genga::error::Error;
 use genga::knob::{Knobs, choices, knob, knobs};
 use genga::motion::{Axis, Cels, Clip, Composite, Stature, Unit, played_out};
 use genga::sheet::{Layer, Sheet};
+use genga_read::GltfScene;
+use others::Hung;
 
 /// The limited motion as GLB: a skeleton that holds each drawing's pose for as long as the drawing is
 /// exposed, in metres and +Y up. By default every sampler is `STEP`.
@@ -41,6 +45,8 @@ pub struct Glb {
     pub mesh: bool,
     /// Keying of holds; default `single`.
     pub step: Step,
+    /// Whether cameras, props and morphs of a glTF keep their keys or are stepped with the drawings; default `keep`.
+    pub others: Others,
 }
 
 /// The keying of holds (止め).
@@ -118,7 +124,14 @@ choices!(Up { Auto: "auto", Y: "y", Z: "z" });
 
 impl Default for Glb {
     fn default() -> Self {
-        Self { unit: LengthUnit::Auto, scale: 1.0, up: Up::Auto, mesh: true, step: Step::Single }
+        Self {
+            unit: LengthUnit::Auto,
+            scale: 1.0,
+            up: Up::Auto,
+            mesh: true,
+            step: Step::Single,
+            others: Others::Keep,
+        }
     }
 }
 
@@ -140,6 +153,11 @@ knobs!(glb::Glb {
          programs without step interpolation (doubled).",
         "1枚ごとのキー。ステップ補間のキー1つ（single）、\
          またはステップ補間に非対応のソフト向けに同じリニアのキー2つ（doubled）。",
+    ),
+    others: knob(
+        "体以外",
+        "Cameras, props and morphs of a glTF: with their own keys (keep), or stepped with the drawings (step).",
+        "glTFのカメラ・小道具・モーフ。元のキーのまま（keep）か、画に合わせて止める（step）。",
     ),
 });
 
@@ -166,15 +184,20 @@ impl Glb {
         clip.check_size()?;
         // The rounds of a loop are at other places and show the same drawings.
         let named = Cels::new(clip, sheet)?;
+        let (beside, timeline) = (others::scene_of(clip), Timeline::new(sheet, self.others));
         let (clip, sheet) = played_out(clip, sheet);
         let (clip, sheet) = (&*clip, &*sheet);
         let composite = Composite::new(clip, sheet)?;
         let space = self.space(clip);
         let bones = Bones::new(clip.skeleton(), space)?;
-        let mut binary = Binary::default();
-        let mut document = self.scene(&bones, &mut binary);
-        document["animations"] =
+        let (mut document, mut binary, hung) = self.scene(&bones, beside, space);
+        let mut animations =
             self.animations(&composite, (sheet, named.layer()), space, &mut binary);
+        for animation in &mut animations {
+            let time = (&timeline, sheet.clock.koma_rate);
+            hung.iter().for_each(|hung| hung.play(animation, time, &mut binary));
+        }
+        document["animations"] = Value::Array(animations);
         Ok(binary.into_glb(document))
     }
 
@@ -196,9 +219,12 @@ impl Glb {
         let space = self.space(clip);
         let bones = Bones::new(clip.skeleton(), space)?;
         let keyed = curves.fit(clip, sheet)?;
-        let mut binary = Binary::default();
-        let mut document = self.scene(&bones, &mut binary);
-        let animation = keyed::animation(clip, sheet, &keyed, (space, curves), &mut binary);
+        let (mut document, mut binary, hung) = self.scene(&bones, others::scene_of(clip), space);
+        let mut animation = keyed::animation(clip, sheet, &keyed, (space, curves), &mut binary);
+        if let (Some(hung), [first, .., last]) = (hung, &keyed.layers[0][..]) {
+            let time = (&Timeline::of_take(first.place, last.place, 1.0), clip.rate().fps());
+            hung.play(&mut animation, time, &mut binary);
+        }
         document["animations"] = json!([animation]);
         Ok(binary.into_glb(document))
     }
@@ -214,26 +240,39 @@ impl Glb {
         Space { scale, is_z_up }
     }
 
-    /// Builds the document without its animations: nodes, the skin, and the mesh bound to it.
-    fn scene(&self, bones: &Bones, binary: &mut Binary) -> Value {
+    /// Builds the document without its animations: nodes, the skin, the mesh bound to it, and what the source holds beside
+    /// the body.
+    fn scene<'a>(
+        &self,
+        bones: &Bones,
+        beside: Option<&'a GltfScene>,
+        space: Space,
+    ) -> (Value, Binary, Option<Hung<'a>>) {
+        let mut binary =
+            beside.map_or_else(Binary::default, |scene| Binary::of(&scene.bytes, &scene.parts));
         let mut nodes = bones.nodes();
         let mut scene = vec![bones.root()];
         let mut document = json!({
             "asset": { "version": "2.0", "generator": GENERATOR },
-            "skins": [bones.skin(binary)],
+            "skins": [bones.skin(&mut binary)],
             "scene": 0,
         });
+        for (name, part) in beside.into_iter().flat_map(|scene| &scene.parts) {
+            document[name] = part.clone();
+        }
         if self.mesh {
-            let (mesh, materials) = mesh::mesh(bones, binary);
-            document["meshes"] = json!([mesh]);
-            document["materials"] = materials.into();
+            let [meshes, first] = ["meshes", "materials"].map(|name| count(&document[name]));
+            let (mesh, materials) = mesh::mesh(bones, first, &mut binary);
+            extend(&mut document["meshes"], vec![mesh]);
+            extend(&mut document["materials"], materials);
             // A skinned mesh must not be a child of a joint: the joints alone move it.
             scene.push(nodes.len());
-            nodes.push(json!({ "name": "bones", "mesh": 0, "skin": 0 }));
+            nodes.push(json!({ "name": "bones", "mesh": meshes, "skin": 0 }));
         }
+        let hung = beside.map(|beside| Hung::new(beside, space, (&mut nodes, &mut scene)));
         document["nodes"] = Value::Array(nodes);
         document["scenes"] = json!([{ "nodes": scene }]);
-        document
+        (document, binary, hung)
     }
 
     /// Writes both animations, or only the first if no drawing is a key.
@@ -243,7 +282,7 @@ impl Glb {
         (sheet, named): (&Sheet, &Layer),
         space: Space,
         binary: &mut Binary,
-    ) -> Value {
+    ) -> Vec<Value> {
         let layer = composite.layer();
         let poses = animation::Poses::new(composite, space);
         let write = |name: &str, shown: &[animation::Exposed], binary: &mut Binary| {
@@ -254,7 +293,20 @@ impl Glb {
         if !genga.is_empty() {
             animations.push(write("genga", &genga, binary));
         }
-        Value::Array(animations)
+        animations
+    }
+}
+
+/// Number of elements of a list, which may be missing.
+fn count(list: &Value) -> usize {
+    list.as_array().map_or(0, Vec::len)
+}
+
+/// Adds elements to a list, which may be missing.
+fn extend(list: &mut Value, more: Vec<Value>) {
+    match list.as_array_mut() {
+        Some(list) => list.extend(more),
+        None => *list = more.into(),
     }
 }
 

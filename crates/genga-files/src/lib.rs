@@ -7,6 +7,7 @@
 
 mod action_table;
 mod after_effects;
+mod beside;
 mod column_table;
 mod comparison_table;
 mod curves;
@@ -37,6 +38,7 @@ mod study_table;
 mod table;
 #[cfg(test)]
 pub(crate) mod tests;
+mod timeline;
 mod turn_table;
 mod vmd;
 mod vrma;
@@ -71,9 +73,11 @@ pub use settings::{CsvSettings, Settings};
 pub use sts::sts;
 pub use study_table::study_csv;
 use table::{CsvText, csv_table, number};
+pub use timeline::Others;
 pub use turn_table::turns_csv;
 pub use vmd::{
-    BoneMap, MmdModel, STILL_LIMB, Vmd, VmdBones, VmdKey, VmdMade, VmdMotion, VmdReport,
+    BoneMap, MmdModel, STILL_LIMB, Vmd, VmdBones, VmdCameraMotion, VmdFaceKey, VmdKey, VmdMade,
+    VmdMotion, VmdReport,
 };
 pub use xsheet::{XSheetFiles, xsheet};
 
@@ -93,6 +97,9 @@ mod real;
 #[cfg(test)]
 #[path = "../../../src/motion/bvh/sample.rs"]
 mod sample;
+#[cfg(test)]
+#[path = "../../../tests/stage.rs"]
+mod stage;
 #[cfg(test)]
 #[path = "../../genga-read/src/mmd/test_models.rs"]
 mod test_models;

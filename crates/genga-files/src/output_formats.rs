@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use crate::beside::{Passes, unpassed};
 #[cfg(feature = "images")]
 use crate::cut_folder;
 use crate::settings::Settings;
@@ -186,11 +187,12 @@ pub const FORMATS: &[Format] = &[
         help: "motion for MikuMikuDance, with a table of joints and their bones",
         japanese: "MMDモーション",
         goes_to: "MMD, VRM",
-        files: &["CUT.vmd", "CUT-bones.csv"],
+        files: &["CUT.vmd", "CUT-bones.csv", "CUT-camera.vmd"],
         make: |cut, settings, put| {
             let made = settings.vmd.make(cut.clip, cut.sheet)?;
             put(&cut.file("CUT.vmd"), &made.motion.bytes()?)?;
-            put(&cut.file("CUT-bones.csv"), &settings.csv.encode(made.report.csv()?))
+            put(&cut.file("CUT-bones.csv"), &settings.csv.encode(made.report.csv()?))?;
+            made.put_camera(&cut.file("CUT-camera.vmd"), put)
         },
         notes: |cut, settings| settings.vmd.notes(cut.clip, cut.sheet),
         ..PLAIN
@@ -202,6 +204,7 @@ pub const FORMATS: &[Format] = &[
         goes_to: "3-D programs",
         files: &["limited.glb"],
         make: |cut, settings, put| put("limited.glb", &settings.glb.write(cut.clip, cut.sheet)?),
+        notes: |cut, _| Ok(unpassed("glb", cut.clip, Passes::Gltf).into_iter().collect()),
         ..PLAIN
     },
     Format {
@@ -209,10 +212,11 @@ pub const FORMATS: &[Format] = &[
         help: "few keys for MikuMikuDance, at the genga, with its curves between them",
         japanese: "MMDのキーと補間曲線",
         goes_to: "MMD, VRM",
-        files: &["CUT-keys.vmd"],
+        files: &["CUT-keys.vmd", "CUT-keys-camera.vmd"],
         make: |cut, settings, put| {
             let made = settings.vmd.make_keys(cut.clip, cut.sheet, &settings.curves)?;
-            put(&cut.file("CUT-keys.vmd"), &made.motion.bytes()?)
+            put(&cut.file("CUT-keys.vmd"), &made.motion.bytes()?)?;
+            made.put_camera(&cut.file("CUT-keys-camera.vmd"), put)
         },
         notes: |cut, settings| {
             Ok(settings.vmd.make_keys(cut.clip, cut.sheet, &settings.curves)?.notes)
@@ -229,7 +233,11 @@ pub const FORMATS: &[Format] = &[
             let made = settings.glb.write_keys(cut.clip, cut.sheet, &settings.curves)?;
             put("keys.glb", &made)
         },
-        notes: |cut, settings| settings.curves.notes(cut.clip, cut.sheet),
+        notes: |cut, settings| {
+            let mut notes = settings.curves.notes(cut.clip, cut.sheet)?;
+            notes.extend(unpassed("keys-glb", cut.clip, Passes::Gltf));
+            Ok(notes)
+        },
         ..PLAIN
     },
     Format {
@@ -242,7 +250,11 @@ pub const FORMATS: &[Format] = &[
             let made = vrma::write(cut.clip, cut.sheet, settings.vmd.map.as_ref())?;
             put(&cut.file("CUT.vrma"), &made)
         },
-        notes: |cut, settings| vrma::notes(cut.clip, settings.vmd.map.as_ref()),
+        notes: |cut, settings| {
+            let mut notes = vrma::notes(cut.clip, settings.vmd.map.as_ref())?;
+            notes.extend(unpassed("vrma", cut.clip, Passes::Nothing));
+            Ok(notes)
+        },
         ..PLAIN
     },
     Format {

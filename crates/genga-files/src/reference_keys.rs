@@ -189,7 +189,8 @@ mod tests {
             curves: [[20, 20, 107, 107]; 4],
         };
         let keys = frames.map(key).collect();
-        VmdMotion { model: "人形".into(), keys, ik_off: vec![] }.bytes().unwrap()
+        let (faces, shown) = (vec![], vec![]);
+        VmdMotion { model: "人形".into(), keys, ik_off: vec![], faces, shown }.bytes().unwrap()
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! The limited motion for MikuMikuDance (MMD): a VMD file for any model with the standard bones, or for a given one.
 
 mod keyed;
+mod passed;
 mod record;
 #[cfg(test)]
 mod tests;
@@ -11,6 +12,8 @@ use std::collections::HashSet;
 use glam::DQuat;
 use serde::{Deserialize, Serialize};
 
+use crate::Sink;
+use crate::beside::{Passes, unpassed};
 use crate::csv_table;
 use crate::curves::{Curves, TOO_FEW, keys_of};
 use crate::humanoid::capture::Capture;
@@ -18,6 +21,7 @@ use crate::humanoid::cast::Cast;
 pub use crate::humanoid::cast::{STILL_LIMB, VmdBones};
 use crate::humanoid::rest_alignment::Stance;
 use crate::humanoid::retarget::{Local, Retarget};
+use crate::timeline::{Others, Timeline};
 use genga::error::{Error, Warning};
 use genga::knob::{Knobs, knob, knobs};
 pub use genga::motion::BoneMap;
@@ -26,7 +30,9 @@ use genga::motion::body::names::{Found, SHAPE};
 use genga::motion::{Clip, Composite, JointId, Skeleton, played_out};
 use genga::sheet::{Blank, Exposure, Sheet, Source};
 pub use genga_read::MmdModel;
-pub use record::{VmdKey, VmdMotion};
+use genga_read::VmdBeside;
+use passed::Passing;
+pub use record::{VmdCameraMotion, VmdFaceKey, VmdKey, VmdMotion};
 
 /// Maximum length of a model's name, in bytes of CP932.
 const LONGEST_MODEL: usize = 20;
@@ -55,6 +61,8 @@ pub struct Vmd {
     pub model: String,
     /// The bone set to write; default `standard`. A given model's own bones take precedence.
     pub bones: VmdBones,
+    /// Whether the face and the camera of a VMD keep their keys or are stepped with the drawings; default `keep`.
+    pub others: Others,
     /// Map from joints to bones; `None`, the default, is the built-in table.
     #[serde(skip)]
     pub map: Option<BoneMap>,
@@ -68,6 +76,8 @@ pub struct Vmd {
 pub struct VmdMade {
     /// The contents of the file; [`VmdMotion::bytes`] encodes them.
     pub motion: VmdMotion,
+    /// The camera that stands beside the body, which is a file of its own; `None` without one.
+    pub camera: Option<VmdCameraMotion>,
     /// The mapping of joints to bones.
     pub report: VmdReport,
     /// Notes for the user.
@@ -118,6 +128,7 @@ impl Default for Vmd {
             leg: 9.7,
             model: NAMELESS.into(),
             bones: VmdBones::Standard,
+            others: Others::Keep,
             map: None,
             body: None,
         }
@@ -160,6 +171,11 @@ knobs!(vmd::Vmd {
         "Bones that the motion drives: only those of every model, or also 上半身2 and 親指０.",
         "動かすボーン。全モデル共通の標準ボーンだけ、または上半身2と親指０も。",
     ),
+    others: knob(
+        "体以外",
+        "Face, camera and light of a VMD: with their own keys (keep), or stepped with the drawings (step).",
+        "VMDの表情・カメラ・照明。元のキーのまま（keep）か、画に合わせて止める（step）。",
+    ),
     ..map, body
 });
 
@@ -182,6 +198,7 @@ impl Vmd {
     /// range, or two koma would fall on the same frame.
     pub fn make(&self, clip: &Clip, sheet: &Sheet) -> Result<VmdMade, Error> {
         self.validate()?;
+        let (beside, own) = (kept(clip), sheet);
         let (clip, sheet) = played_out(clip, sheet);
         let (clip, sheet) = (&*clip, &*sheet);
         let composite = Composite::new(clip, sheet)?;
@@ -193,7 +210,9 @@ impl Vmd {
             let keys = keys(&composite, (&frames, sheet.blank), retarget)?;
             Ok((keys, None))
         };
-        self.made(&composite, sheet, write)
+        let made = self.made(&composite, sheet, write)?;
+        let (timeline, in_koma) = (Timeline::new(own, self.others), frames.in_koma);
+        made.passing(beside, &Passing { timeline: &timeline, in_koma })
     }
 
     /// Converts the take for the model as keys at the genga of a sheet with MMD's curves between them, which stay within
@@ -223,7 +242,10 @@ impl Vmd {
             let note = curves.note("keys-vmd", made.frames, made.added, made.error_of_genga);
             Ok((made.keys, note))
         };
-        self.made(&composite, &ones, write)
+        let made = self.made(&composite, &ones, write)?;
+        let pace = clip.rate().fps() / self.fps;
+        let timeline = Timeline::of_take(places[0], places[places.len() - 1], pace);
+        made.passing(kept(clip), &Passing { timeline: &timeline, in_koma: 1.0 })
     }
 
     /// Makes a motion of the keys that `write` writes, with its note if it has one.
@@ -245,7 +267,9 @@ impl Vmd {
         let mut notes = self.notes(clip, sheet)?;
         let (keys, note) = write(&mut retarget)?;
         notes.extend(note);
-        Ok(VmdMade { motion: VmdMotion { model: name, keys, ik_off: cast.ik_off }, report, notes })
+        let (faces, shown) = (Vec::new(), Vec::new());
+        let motion = VmdMotion { model: name, keys, ik_off: cast.ik_off, faces, shown };
+        Ok(VmdMade { motion, camera: None, report, notes })
     }
 
     /// Collects the notes of [`Vmd::make`] without making the motion.
@@ -262,6 +286,7 @@ impl Vmd {
         notes.extend(self.name()?.1);
         notes.extend((!cast.has_leg()).then(no_legs));
         notes.extend(cast.notes);
+        notes.extend(unpassed("vmd", clip, Passes::Vmd));
         Ok(notes)
     }
 
@@ -304,6 +329,28 @@ impl Vmd {
     fn map(&self) -> Cow<'_, BoneMap> {
         self.map.as_ref().map_or_else(|| Cow::Owned(BoneMap::default()), Cow::Borrowed)
     }
+}
+
+impl VmdMade {
+    /// Hands over the camera's file, if there is one.
+    pub(crate) fn put_camera(&self, name: &str, put: &mut Sink<'_>) -> Result<(), Error> {
+        self.camera.as_ref().map_or(Ok(()), |camera| put(name, &camera.bytes()?))
+    }
+
+    /// Adds what the source holds beside the body.
+    fn passing(mut self, beside: Option<&VmdBeside>, passing: &Passing<'_>) -> Result<Self, Error> {
+        if let Some(beside) = beside {
+            self.motion.faces = passing.faces(beside)?;
+            self.motion.shown = passing.shown(beside)?;
+            self.camera = passing.camera(beside)?;
+        }
+        Ok(self)
+    }
+}
+
+/// What a VMD holds beside the body of a clip.
+fn kept(clip: &Clip) -> Option<&VmdBeside> {
+    clip.beside().and_then(|beside| beside.kept())
 }
 
 /// Returns the places of the genga on all layers, in order of time.

@@ -2,18 +2,21 @@
 //! animation moves.
 //!
 //! Units are metres, with Y up, as the format defines. Curves are sampled at the rate derived from their
-//! keys. In a VRM file, bones get their VRM 1.0 names. Morph weights and materials are ignored.
+//! keys. In a VRM file, bones get their VRM 1.0 names. Cameras, props and their keys are kept for a GLB.
 
 mod accessor;
 mod buffers;
+mod camera;
 mod curve;
 mod document;
+mod kept;
 mod scene;
 #[cfg(test)]
 mod tests;
 
 pub(super) use document::Document;
-pub(super) use scene::read;
+pub use kept::{Carrier, GltfNode, GltfScene, GltfTrack};
+pub(super) use scene::{camera_path, read};
 
 use crate::reading::shortened;
 use genga::error::{Error, Place};

@@ -17,6 +17,7 @@ mod gltf;
 mod gltf_camera;
 mod input_formats;
 mod mmd;
+mod other_camera;
 mod posed;
 mod rates;
 mod reading;
@@ -24,7 +25,11 @@ mod reading;
 #[path = "../../../tests/real/mod.rs"]
 mod real;
 #[cfg(test)]
+#[path = "../../../tests/stage.rs"]
+mod stage;
+#[cfg(test)]
 mod tests;
+mod track;
 
 use std::fs::File;
 use std::io::{Read as _, Seek};
@@ -34,11 +39,16 @@ use genga::error::{Error, Place, Warning};
 use genga::motion::bvh::no_tree;
 use genga::motion::{Declared, StreamLimit, Word, bytes_in_words};
 
+pub use gltf::{Carrier, GltfNode, GltfScene, GltfTrack};
 pub use gltf_camera::GltfCamera;
 pub use input_formats::{FORMATS, Format};
-pub use mmd::{MmdModel, is_motion as is_vmd, key_frames as vmd_key_frames};
+pub use mmd::{
+    MORPH_NAME, MmdModel, VmdBeside, VmdCamera, VmdCameraKey, is_motion as is_vmd,
+    key_frames as vmd_key_frames,
+};
 pub use rates::KEY_FAR;
 pub use reading::{Found, Given, Options, Read, TAKES, Take};
+pub use track::{Between, Track};
 
 /// Warning that tells how a file other than BVH was interpreted.
 pub const FORMAT: &str = "W_FORMAT";
@@ -67,6 +77,10 @@ impl Options {
     /// # Errors
     /// [`Error::Io`] if the file cannot be read, and the errors of [`Options::read`].
     pub fn open(&self, path: &Path) -> Result<Read, Error> {
+        self.with_camera(self.opened(path)?)
+    }
+
+    fn opened(&self, path: &Path) -> Result<Read, Error> {
         let failed = |source| Error::Io { path: path.to_owned(), source };
         let mut file = File::open(path).map_err(failed)?;
         let about = file.metadata().map_err(failed)?;
@@ -97,7 +111,7 @@ impl Options {
     /// [`Error::Motion`] with the place if the file is invalid. [`Error::Setting`] if the requested take or tree does not exist, or if the format takes no
     /// skeleton file.
     pub fn read(&self, bytes: &[u8]) -> Result<Read, Error> {
-        self.given(bytes, None)
+        self.with_camera(self.given(bytes, None)?)
     }
 
     fn given(&self, bytes: &[u8], path: Option<&Path>) -> Result<Read, Error> {

@@ -4,6 +4,8 @@
 //! proportions. It is evaluated like MMD, frame by frame at 30 a second. Legs whose IK bones have keys are
 //! solved to reach their feet.
 
+mod beside;
+mod camera;
 mod curve;
 mod legs;
 pub(crate) mod model;
@@ -17,9 +19,12 @@ mod usual_skeleton;
 
 use std::path::Path;
 
+use super::other_camera::fitted;
 use super::reading::{Found, Given, Options, Read, join_names};
+pub use beside::{MORPH_NAME, VmdBeside};
+pub use camera::{VmdCamera, VmdCameraKey};
 use genga::error::{Error, Place, Warning};
-use genga::motion::Declared;
+use genga::motion::{Beside, Clip, Declared};
 use genga::time::FrameRate;
 pub use model::MmdModel;
 #[cfg(test)]
@@ -67,10 +72,37 @@ pub(super) fn read(given: &Given<'_>, options: &Options) -> Result<Read, Error> 
     ];
     let foreign = motion.names.foreign().map(|encoding| format!("names in {encoding}"));
     found.extend(foreign.map(|names| Found::new("names", names)));
-    let left_out = motion.left_out.iter().map(|(count, what)| (*count, *what));
-    found.extend(Found::left_out(&left_out.collect::<Vec<_>>()));
+    found.extend(motion.beside.found());
+    let clip = match motion.beside.is_empty() {
+        true => clip,
+        false => {
+            let camera = motion.beside.camera_path(clip.len());
+            clip.with_beside(Beside::new(camera).keep(motion.beside))
+        }
+    };
     let warnings = motion.far.into_iter().chain(strangers(&rig)).collect();
     Ok(Read { clip, warnings, written_frame_time: None, found, takes: Vec::new() })
+}
+
+/// Puts the camera, the light and the shadow of a VMD beside a clip. The file begins with the clip.
+///
+/// # Errors
+/// [`Error::Motion`] if the file is damaged or has no camera.
+pub(super) fn with_camera(clip: Clip, bytes: &[u8]) -> Result<Clip, Error> {
+    let VmdBeside { camera, light, shadow, .. } = Motion::read_any(bytes)?.beside;
+    let old = clip.beside().cloned().unwrap_or_default();
+    let frames = clip.rate().fps() / RATE;
+    let own = old.kept::<VmdBeside>().cloned();
+    let own = own.unwrap_or_else(|| VmdBeside { frames, ..VmdBeside::default() });
+    let beside = VmdBeside { camera, light, shadow, ..own };
+    let path = beside.camera_path(clip.len()).ok_or_else(|| {
+        let message =
+            "this VMD has no key of the camera; a camera's motion is a file of its own in MMD";
+        Error::Motion { place: Place::Whole, message: message.into() }
+    })?;
+    let mut all = old.keep(beside);
+    all.camera = Some(fitted(path, &clip, 0.01));
+    Ok(clip.with_beside(all))
 }
 
 /// The frames on which a bone of the body has a key, sorted and unique: the key poses of the animator.

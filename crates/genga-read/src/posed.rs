@@ -64,6 +64,8 @@ pub(super) struct Posed {
     bones: Vec<Bone>,
     /// Transform of each bone relative to its parent, frame after frame.
     local: Vec<Stand>,
+    /// Index of each bone in the list from which it was taken.
+    from: Vec<usize>,
     warnings: Vec<Warning>,
 }
 
@@ -102,7 +104,8 @@ impl Posed {
             }
         }
         let bones = select(bones, &kept);
-        Ok(Self { bones, local, warnings })
+        let from = (0..kept.len()).filter(|bone| kept[*bone]).collect();
+        Ok(Self { bones, local, from, warnings })
     }
 
     /// Builds the clip, and returns the warnings about its joints.
@@ -111,9 +114,7 @@ impl Posed {
     /// [`Error::Clip`] if a value is not finite.
     pub(super) fn clip(self, rate: FrameRate) -> Result<(Clip, Vec<Warning>), Error> {
         let count = self.bones.len();
-        let size = self.size();
-        let moves: Vec<bool> = (0..count).map(|bone| self.moves(bone, size)).collect();
-        let tips: Vec<bool> = (0..count).map(|bone| self.is_tip(bone, &moves)).collect();
+        let (moves, tips) = self.moves_and_tips();
         let skeleton = self.skeleton(&moves, &tips);
         let joints: Vec<usize> = (0..count).filter(|bone| !tips[*bone]).collect();
         let (width, frames) = (skeleton.channels(), self.local.len() / count.max(1));
@@ -130,6 +131,20 @@ impl Posed {
             }
         }
         Ok((Clip::new(skeleton, rate, Frame(0), frames, values)?, self.warnings))
+    }
+
+    /// Returns the index of each joint of the clip in the list of bones that was given.
+    pub(super) fn joints(&self) -> Vec<usize> {
+        let (_, tips) = self.moves_and_tips();
+        self.from.iter().zip(tips).filter(|(_, is_tip)| !is_tip).map(|(from, _)| *from).collect()
+    }
+
+    /// Finds the bones that leave their place on their parent, and those that only mark its end.
+    fn moves_and_tips(&self) -> (Vec<bool>, Vec<bool>) {
+        let (count, size) = (self.bones.len(), self.size());
+        let moves: Vec<bool> = (0..count).map(|bone| self.moves(bone, size)).collect();
+        let tips = (0..count).map(|bone| self.is_tip(bone, &moves)).collect();
+        (moves, tips)
     }
 
     /// Total length of the bones in the first frame.

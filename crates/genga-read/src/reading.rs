@@ -33,6 +33,9 @@ pub struct Options {
     /// an `.asf` for an AMC. Default: none, which means a figure of usual proportions, and the `.asf`
     /// beside the motion.
     pub skeleton: Option<PathBuf>,
+    /// File with the camera of the take, a VMD or a glTF, over one in the motion's own file. It begins with the motion.
+    /// Default: none.
+    pub camera: Option<PathBuf>,
     /// Axis that points up, whatever the file says. Default: none, as the file declares or as the body
     /// stands.
     pub up: Option<Axis>,
@@ -77,12 +80,17 @@ impl Found {
 
     /// Lists the parts of a file that a reader leaves out, with the number of each kind; `None` if there
     /// are none.
+    #[cfg(feature = "fbx")]
     pub(super) fn left_out(kinds: &[(usize, &str)]) -> Option<Self> {
-        let there = kinds.iter().filter(|(count, _)| *count > 0);
-        let counted: Vec<String> = there.map(|(count, what)| format!("{what} ({count})")).collect();
-        let message = format!("left out: {}", counted.join(", "));
-        (!counted.is_empty()).then(|| Self::new("left out", message))
+        Some(Self::new("left out", format!("left out: {}", counted(kinds)?)))
     }
+}
+
+/// Lists kinds of things with the number of each: `cameras (1), shapes (2)`; `None` if there are none.
+pub(super) fn counted(kinds: &[(usize, &str)]) -> Option<String> {
+    let there = kinds.iter().filter(|(count, _)| *count > 0);
+    let counted: Vec<String> = there.map(|(count, what)| format!("{what} ({count})")).collect();
+    (!counted.is_empty()).then(|| counted.join(", "))
 }
 
 /// Most names listed in a sentence.

@@ -60,7 +60,9 @@ pub(super) fn run(args: &DeliverArgs, words: &Words) -> Result<(), Failure> {
     let mut file = read(args, words)?;
     file.sheet = args.cut.place(file.sheet).map_err(placed_wrongly)?;
     let bones = args.reading.bones.as_deref().map(|path| ("table of bones", path));
-    let sources = [("motion", &*args.clip), ("sheet", &*args.sheet)].into_iter().chain(bones);
+    let camera = args.reading.camera_work.as_deref().map(|path| ("camera", path));
+    let sources = [("motion", &*args.clip), ("sheet", &*args.sheet)];
+    let sources = sources.into_iter().chain(bones).chain(camera);
     for (what, path) in sources {
         formats.spare(what, path, folder, &file.cut)?;
     }

@@ -137,6 +137,7 @@ fn spare(args: &RunArgs, formats: &Formats, folder: &Path, cut: &str) -> Result<
         ("recipe", corrections.settings.recipe.as_deref()),
         ("table of bones", args.plan.clip.part.reading().bones.as_deref()),
         ("camera", camera_args::file(&corrections.seen)),
+        ("camera", args.plan.clip.part.reading().camera_work.as_deref()),
     ];
     for (what, path) in sources.into_iter().filter_map(|(what, path)| Some((what, path?))) {
         formats.spare(what, path, folder, cut)?;

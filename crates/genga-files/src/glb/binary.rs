@@ -1,6 +1,6 @@
 //! The binary chunk of a GLB, and the buffer views and accessors into it.
 
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 
 /// The use of an accessor's values.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -69,6 +69,16 @@ pub(crate) struct Binary {
 }
 
 impl Binary {
+    /// Begins with the buffer of another document, and with its views and accessors.
+    pub(crate) fn of(bytes: &[u8], parts: &Map<String, Value>) -> Self {
+        let list = |name: &str| parts.get(name).and_then(Value::as_array).cloned();
+        let [views, accessors] =
+            ["bufferViews", "accessors"].map(|name| list(name).unwrap_or_default());
+        let mut bytes = bytes.to_vec();
+        pad(&mut bytes, 0);
+        Self { bytes, views, accessors }
+    }
+
     /// Adds values of one shape, such as `VEC3`, and returns the index of their accessor.
     pub(crate) fn add<C: Component, const N: usize>(
         &mut self,

@@ -44,8 +44,8 @@ fn material(name: &str, [red, green, blue]: [f64; 3]) -> Value {
 }
 
 /// Builds one mesh of all bones, each bound to the joint that turns it, and the materials. Each side of the body
-/// that has bones is a primitive.
-pub(super) fn mesh(bones: &Bones, binary: &mut Binary) -> (Value, Vec<Value>) {
+/// that has bones is a primitive. `first` is the index of the first material.
+pub(super) fn mesh(bones: &Bones, first: usize, binary: &mut Binary) -> (Value, Vec<Value>) {
     let octahedra = octahedra(bones);
     let corners = |octahedron: &Octahedron| octahedron.corners.map(floats);
     let corners: Vec<[f32; 3]> = octahedra.iter().flat_map(corners).collect();
@@ -72,7 +72,7 @@ pub(super) fn mesh(bones: &Bones, binary: &mut Binary) -> (Value, Vec<Value>) {
             primitives.push(json!({
                 "attributes": attributes,
                 "indices": indices,
-                "material": materials.len(),
+                "material": first + materials.len(),
             }));
             materials.push(material(name, color));
         }

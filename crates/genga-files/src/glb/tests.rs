@@ -1,5 +1,6 @@
 //! Reads a GLB back with a small reader and compares it with the sheet and `limited.bvh`.
 
+mod others;
 mod reader;
 
 use glam::DVec3;

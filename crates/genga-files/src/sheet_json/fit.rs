@@ -111,7 +111,7 @@ impl SheetFile {
             Some(round) => {
                 let rate = round.frame_rate(self.sheet.clock.koma_rate)?;
                 let drawn = self.exaggerate.apply(&laid(clip, 3, 0).with_rate(rate))?;
-                Ok(middle_round(&drawn).with_rate(clip.rate()))
+                Ok(middle_round(&drawn).with_rate(clip.rate()).with_beside_of(clip))
             }
         };
         (!self.exaggerate.is_off()).then(drawn).transpose()

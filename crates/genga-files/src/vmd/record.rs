@@ -4,6 +4,13 @@ use serde::Serialize;
 
 use genga::error::Error;
 use genga::motion::body::names::bones::{LONGEST_NAME, cp932};
+use genga_read::{MORPH_NAME, VmdCameraKey};
+
+/// A frame of a VMD, from 0.
+pub(super) type Frame = u32;
+
+/// The name by which MMD knows the motion of a camera, and what it writes behind it.
+const CAMERA: (&str, &[u8]) = ("カメラ・照明", b"\0on Data");
 
 /// Maximum length of the name of a model or an IK bone, in bytes of CP932.
 const LONGEST_MODEL: usize = 20;
@@ -38,6 +45,77 @@ pub struct VmdMotion {
     pub keys: Vec<VmdKey>,
     /// Inverse kinematics (IK) switched off on frame 0, by the names of their bones.
     pub ik_off: Vec<String>,
+    /// Keys of morphs (表情), sorted by frame.
+    pub faces: Vec<VmdFaceKey>,
+    /// Frames from which the model is shown or hidden; empty for a model that is always shown.
+    pub shown: Vec<(u32, bool)>,
+}
+
+/// A key of a morph (表情).
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct VmdFaceKey {
+    /// The bytes of its name, at most 15, as they are in the source.
+    pub name: Vec<u8>,
+    /// The frame, from 0.
+    pub frame: u32,
+    /// Its weight, 0 to 1.
+    pub weight: f32,
+}
+
+/// The motion of MMD's camera (カメラモーション), which is a file of its own, with that of light and shadow.
+#[derive(Debug, Clone, PartialEq)]
+pub struct VmdCameraMotion {
+    /// Keys of the camera, sorted by frame.
+    pub keys: Vec<VmdCameraKey>,
+    /// Colour and direction of the light, by frame.
+    pub light: Vec<(u32, Vec<f64>)>,
+    /// Mode and distance of the shadow, by frame.
+    pub shadow: Vec<(u32, Vec<f64>)>,
+}
+
+impl VmdCameraMotion {
+    /// Whether it has no key.
+    pub fn is_empty(&self) -> bool {
+        self.keys.is_empty() && self.light.is_empty() && self.shadow.is_empty()
+    }
+
+    /// Encodes the file, which has no bones and no morphs.
+    ///
+    /// # Errors
+    /// [`Error::Clip`] if there are more keys than a file holds.
+    pub fn bytes(&self) -> Result<Vec<u8>, Error> {
+        let name = [&cp932(CAMERA.0, LONGEST_MODEL)?[..], CAMERA.1].concat();
+        let mut bytes = head(&name);
+        bytes.extend([0; 8]);
+        bytes.extend(count(self.keys.len())?);
+        for key in &self.keys {
+            bytes.extend(key.frame.to_le_bytes());
+            key.values[..7].iter().for_each(|value| bytes.extend((*value as f32).to_le_bytes()));
+            bytes.extend(key.curves);
+            bytes.extend((key.values[7].round() as u32).to_le_bytes());
+            bytes.push(key.perspective);
+        }
+        bytes.extend(count(self.light.len())?);
+        for (frame, values) in &self.light {
+            bytes.extend(frame.to_le_bytes());
+            values.iter().for_each(|value| bytes.extend((*value as f32).to_le_bytes()));
+        }
+        bytes.extend(count(self.shadow.len())?);
+        for (frame, values) in &self.shadow {
+            bytes.extend(frame.to_le_bytes());
+            bytes.push(values[0] as u8);
+            bytes.extend((values[1] as f32).to_le_bytes());
+        }
+        bytes.extend(count(0)?);
+        Ok(bytes)
+    }
+}
+
+/// Encodes signature and model.
+fn head(model: &[u8]) -> Vec<u8> {
+    let mut bytes = padded::<30>(b"Vocaloid Motion Data 0002").to_vec();
+    bytes.extend(padded::<LONGEST_MODEL>(model));
+    bytes
 }
 
 /// A key of a bone.
@@ -57,16 +135,15 @@ pub struct VmdKey {
 }
 
 impl VmdMotion {
-    /// Encodes the file: signature, model, bone keys, no morphs, no camera, no light, no self-shadow. One property
-    /// record follows if there is IK to switch off.
+    /// Encodes the file: signature, model, bone keys, morphs, no camera, no light, no self-shadow. Property records follow
+    /// if there is IK to switch off, or if the model is hidden at times.
     ///
     /// # Errors
     /// [`Error::Setting`] if a name cannot be encoded in CP932 or is too long: 15 bytes for a bone,
     /// 20 for the model and for IK.
     pub fn bytes(&self) -> Result<Vec<u8>, Error> {
-        let mut bytes = Vec::with_capacity(100 + 111 * self.keys.len());
-        bytes.extend(padded::<30>(b"Vocaloid Motion Data 0002"));
-        bytes.extend(padded::<LONGEST_MODEL>(&cp932(&self.model, LONGEST_MODEL)?));
+        let mut bytes = head(&cp932(&self.model, LONGEST_MODEL)?);
+        bytes.reserve(100 + 111 * self.keys.len());
         bytes.extend(count(self.keys.len())?);
         for key in &self.keys {
             bytes.extend(padded::<LONGEST_NAME>(&cp932(&key.bone, LONGEST_NAME)?));
@@ -75,25 +152,32 @@ impl VmdMotion {
             numbers.for_each(|number| bytes.extend(number.to_le_bytes()));
             bytes.extend(interpolation(&key.curves));
         }
-        let (morphs, cameras, lights, shadows) = ([0; 4], [0; 4], [0; 4], [0; 4]);
-        [morphs, cameras, lights, shadows].iter().for_each(|none| bytes.extend(none));
+        bytes.extend(count(self.faces.len())?);
+        for key in &self.faces {
+            bytes.extend(padded::<MORPH_NAME>(&key.name));
+            bytes.extend(key.frame.to_le_bytes());
+            bytes.extend(key.weight.to_le_bytes());
+        }
+        let (cameras, lights, shadows) = ([0; 4], [0; 4], [0; 4]);
+        [cameras, lights, shadows].iter().for_each(|none| bytes.extend(none));
         self.write_properties(&mut bytes)?;
         Ok(bytes)
     }
 
     fn write_properties(&self, bytes: &mut Vec<u8>) -> Result<(), Error> {
-        if self.ik_off.is_empty() {
-            bytes.extend(count(0)?);
-            return Ok(());
+        let mut shown = self.shown.clone();
+        if shown.first().is_none_or(|(frame, _)| *frame > 0) && !self.ik_off.is_empty() {
+            shown.insert(0, (0, true));
         }
-        bytes.extend(count(1)?);
-        let (frame, visible) = (0u32, 1u8);
-        bytes.extend(frame.to_le_bytes());
-        bytes.push(visible);
-        bytes.extend(count(self.ik_off.len())?);
-        for bone in &self.ik_off {
-            bytes.extend(padded::<LONGEST_MODEL>(&cp932(bone, LONGEST_MODEL)?));
-            bytes.push(0);
+        bytes.extend(count(shown.len())?);
+        for (frame, is_shown) in shown {
+            bytes.extend(frame.to_le_bytes());
+            bytes.push(u8::from(is_shown));
+            bytes.extend(count(self.ik_off.len())?);
+            for bone in &self.ik_off {
+                bytes.extend(padded::<LONGEST_MODEL>(&cp932(bone, LONGEST_MODEL)?));
+                bytes.push(0);
+            }
         }
         Ok(())
     }

@@ -5,6 +5,7 @@ mod file;
 mod given;
 mod keyed;
 mod names;
+mod passed;
 mod reader;
 mod rests;
 mod structure;

@@ -115,7 +115,8 @@ fn a_cut_that_is_entered_late_is_blank_before_and_has_its_koma_behind() {
 
 #[test]
 fn camera_work_stands_in_the_camera_column() {
-    let work = |begin, koma, words: &str| CameraWork { begin, koma, words: words.into() };
+    let work =
+        |begin, koma, words: &str| CameraWork { begin, koma, words: words.into(), is_guess: false };
     let camera = vec![work(2, 12, "PAN"), work(80, 20, "T.U")];
     let sheet = Sheet { camera, ..sheet(vec![layer("A", &[('e', 144)])]) };
     let page = XSheet::default().draw("kick", &clip(), &sheet).unwrap().remove(0);
@@ -125,7 +126,14 @@ fn camera_work_stands_in_the_camera_column() {
         let x = x.parse::<f64>().unwrap();
         let right = [490.0, 992.0][half];
         assert!(x > right - 60.0 && x < right, "{words}: {line}");
+        assert!(!line.contains("writing-mode"), "it is upright: {line}");
     }
+    let camera = vec![work(2, 12, "PAN + 回転"), work(80, 20, "PAN slowly to the left")];
+    let sheet = Sheet { camera, ..sheet };
+    let page = XSheet::default().draw("kick", &clip(), &sheet).unwrap().remove(0);
+    assert!(page.contains(">PAN<") && page.contains(">+ 回転<"), "under each other");
+    let long = page.lines().find(|line| line.contains(">PAN slowly to the left<")).unwrap();
+    assert!(long.contains("writing-mode"), "what is too wide runs down: {long}");
 }
 
 #[test]

@@ -58,6 +58,20 @@ impl<'a> Buffers<'a> {
         Ok(&self.loaded[place])
     }
 
+    /// Loads the bytes of a URI of another part: data in it, or a file beside the document.
+    pub(super) fn load_uri(&mut self, uri: &str, part: &str) -> Result<Vec<u8>, Error> {
+        match inline(uri) {
+            Some(text) => {
+                let bytes = text.and_then(|text| BASE64.decode(text).ok());
+                bytes.ok_or_else(|| wrong(part, "its data is no base64"))
+            }
+            None => {
+                let at = self.load_file(&unescaped(uri), Place::Part(part.to_owned()))?;
+                Ok(self.loaded[at].to_vec())
+            }
+        }
+    }
+
     /// Loads a buffer, and returns the index of its bytes.
     fn load(&mut self, at: usize) -> Result<usize, Error> {
         let part = format!("buffers[{at}]");

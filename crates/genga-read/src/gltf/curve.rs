@@ -6,6 +6,7 @@ use super::accessor::{self, Numbers};
 use super::buffers::Buffers;
 use super::document::{Document, Sampler};
 use super::wrong;
+use crate::track::{self, Track};
 use genga::error::Error;
 
 /// Largest distance at which an instant counts as on a key, as a share of a frame: key times are
@@ -33,12 +34,13 @@ pub(super) struct Curve {
 }
 
 impl Curve {
-    /// Reads the curve of a sampler, whose rows are `width` wide.
+    /// Reads the curve of a sampler, whose rows are `width` wide. Without a width they are as many numbers as there are for
+    /// a key.
     pub(super) fn read(
         document: &Document,
         buffers: &mut Buffers<'_>,
         sampler: &Sampler,
-        width: usize,
+        width: Option<usize>,
         part: &str,
     ) -> Result<Self, Error> {
         let mut numbers = |accessor, part: &str| accessor::read(document, buffers, accessor, part);
@@ -54,12 +56,13 @@ impl Curve {
                 return Err(wrong(format!("{part}.interpolation"), message));
             }
         };
-        if one != 1 || found != width {
-            let message =
-                format!("expected rows of 1 and {width} numbers, found {one} and {found}");
+        let wide = width.unwrap_or(1);
+        if one != 1 || found != wide {
+            let message = format!("expected rows of 1 and {wide} numbers, found {one} and {found}");
             return Err(wrong(part, message));
         }
         let rows = if between == Between::Cubic { 3 } else { 1 };
+        let width = width.unwrap_or_else(|| (values.len() / (rows * times.len()).max(1)).max(1));
         if times.is_empty() || values.len() != times.len() * rows * width {
             let (keys, have) = (times.len(), values.len() / width);
             return Err(wrong(
@@ -75,6 +78,31 @@ impl Curve {
             return Err(wrong(part, "the time of a key is no number"));
         }
         Ok(Self { times, values, width, between })
+    }
+
+    /// Returns the keys at places of a clip, whose first frame is at the time `begin`. Of two keys at one time the second
+    /// counts.
+    pub(super) fn track(&self, begin: f64, fps: f64, is_rotation: bool) -> Track {
+        let between = match self.between {
+            Between::Step => track::Between::Step,
+            Between::Linear if is_rotation => track::Between::Arc,
+            Between::Linear => track::Between::Linear,
+            Between::Cubic => track::Between::Cubic,
+        };
+        let rows = if self.between == Between::Cubic { 3 } else { 1 };
+        let (mut places, mut values) = (Vec::new(), Vec::new());
+        for (key, time) in self.times.iter().enumerate() {
+            if self.times.get(key + 1) == Some(time) {
+                continue;
+            }
+            places.push((time - begin) * fps);
+            let own = self.values[key * rows * self.width..].iter().take(rows * self.width);
+            // Slopes are per second in a file, and per frame in a track.
+            let slope = |at: usize| rows == 3 && at / self.width != 1;
+            let scaled = |(at, value): (usize, &f64)| if slope(at) { value / fps } else { *value };
+            values.extend(own.enumerate().map(scaled));
+        }
+        Track { places, values, width: self.width, between }
     }
 
     /// Whether the value varies over time.

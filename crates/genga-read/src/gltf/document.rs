@@ -37,6 +37,8 @@ pub(crate) struct Node {
     pub(crate) name: Option<String>,
     pub(crate) camera: Option<usize>,
     pub(super) mesh: Option<usize>,
+    pub(super) skin: Option<usize>,
+    pub(super) extensions: serde_json::Map<String, Value>,
     pub(crate) children: Vec<usize>,
     matrix: Option<[f64; 16]>,
     pub(super) translation: Option<[f64; 3]>,
@@ -51,6 +53,22 @@ pub(crate) struct Lens {
     pub(crate) name: Option<String>,
     #[serde(rename = "type")]
     pub(crate) kind: String,
+    pub(super) perspective: Option<Perspective>,
+    pub(super) orthographic: Option<Orthographic>,
+}
+
+/// The lens of a camera with perspective: its vertical angle of view in radians.
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+pub(super) struct Perspective {
+    pub(super) yfov: f64,
+}
+
+/// The lens of a camera without perspective: half the height of its picture.
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+pub(super) struct Orthographic {
+    pub(super) ymag: f64,
 }
 
 /// A glTF skin: its joint nodes.
@@ -178,6 +196,18 @@ impl Document {
         Ok((parsed(json, place)?, binary(rest)))
     }
 
+    /// The whole document as it is in a file that was read before.
+    pub(super) fn raw(bytes: &[u8]) -> Result<Value, Error> {
+        let json = match bytes.starts_with(b"glTF") {
+            true => chunk(bytes)?.0,
+            false => bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes),
+        };
+        serde_json::from_slice(filled(json)).map_err(|error| Error::Motion {
+            place: Place::Whole,
+            message: format!("is no glTF 2.0: {error}"),
+        })
+    }
+
     /// The parent of each node; `None` for roots.
     ///
     /// # Errors
@@ -254,9 +284,7 @@ pub(super) fn placed(
 }
 
 fn parsed(json: &[u8], place: impl Fn(usize, usize) -> Place) -> Result<Document, Error> {
-    // Chunks are padded with blanks, by some writers with zeros.
-    let filled = json.iter().rposition(|byte| *byte != 0).map_or(0, |last| last + 1);
-    let document: Document = serde_json::from_slice(&json[..filled]).map_err(|error| {
+    let document: Document = serde_json::from_slice(filled(json)).map_err(|error| {
         let text = error.to_string();
         let reason = text.rsplit_once(" at line ").map_or(text.as_str(), |(reason, _)| reason);
         let message = format!("is no glTF 2.0: {reason}");
@@ -271,6 +299,12 @@ fn parsed(json: &[u8], place: impl Fn(usize, usize) -> Place) -> Result<Document
     };
     let message = format!("is no glTF 2.0: expected asset.version 2.0, {found}");
     Err(Error::Motion { place: Place::Whole, message })
+}
+
+/// Cuts off the padding: chunks are padded with blanks, by some writers with zeros.
+fn filled(json: &[u8]) -> &[u8] {
+    let filled = json.iter().rposition(|byte| *byte != 0).map_or(0, |last| last + 1);
+    &json[..filled]
 }
 
 /// Splits a `.glb` into its JSON and the remaining chunks.

@@ -4,17 +4,18 @@ mod humanoid;
 mod joints;
 
 use glam::DAffine3;
-use joints::Joints;
 
 use super::buffers::Buffers;
+use super::camera::Cameras;
 use super::curve::Curve;
 use super::document::{Animation, Document, placed};
+use super::kept::{Body, GltfScene, Played};
 use super::wrong;
 use crate::posed::{Bone, Posed, Stand};
 use crate::rates;
-use crate::reading::{Found, Given, Options, Read, Take, join_names};
+use crate::reading::{Found, Given, Options, Read, Take};
 use genga::error::{Error, Place, Warning};
-use genga::motion::Declared;
+use genga::motion::{Beside, CameraPath, Declared};
 use genga::time::FrameRate;
 
 /// The curves that move a node.
@@ -30,8 +31,6 @@ struct Moved {
 struct Motion {
     /// Curves of each node.
     nodes: Vec<Moved>,
-    /// Number of channels that move no node.
-    left_out: usize,
 }
 
 /// Reads a glTF file.
@@ -60,7 +59,7 @@ pub(crate) fn read(given: &Given<'_>, options: &Options) -> Result<Read, Error> 
     let [begin, end] = [times.first(), times.last()].map(|time| time.copied().unwrap_or_default());
     let frames = rates::frames(end - begin, rate);
     let called = humanoid::names(&document);
-    let Joints { joints, left_out } = joints::find(&document, &parents, &motion, &called);
+    let joints = joints::find(&document, &parents, &motion, &called);
     let order = joints::order(&document, &parents);
     let mut world = vec![DAffine3::IDENTITY; parents.len()];
     place(&order, &parents, &mut world, |node| document.nodes[node].local());
@@ -69,15 +68,24 @@ pub(crate) fn read(given: &Given<'_>, options: &Options) -> Result<Read, Error> 
         Bone { name: name.unwrap_or_default(), parent: *parent, rest: Stand::new(&world[*node]) }
     };
     let bones = joints.iter().map(bone).collect();
-    let mut now = world.clone();
+    let (mut now, mut cameras) = (world.clone(), Cameras::new(&document));
     let stand = |frame: usize, stands: &mut [DAffine3]| {
         let time = begin + frame as f64 / rate.fps();
         place(&order, &parents, &mut now, |node| motion.local(&document, node, time, rate));
         stands.iter_mut().zip(&joints).for_each(|(stand, (node, _))| *stand = now[*node]);
+        cameras.add(&now);
     };
-    let (clip, named) = Posed::new(bones, frames, options, stand)
-        .and_then(|posed| posed.clip(rate))
-        .map_err(|error| of_take(error, at, name))?;
+    let posed = Posed::new(bones, frames, options, stand);
+    let posed = posed.map_err(|error| of_take(error, at, name))?;
+    let body = Body {
+        joints: posed.joints().into_iter().map(|bone| joints[bone].0).collect(),
+        order: &order,
+        parents: &parents,
+        world: &world,
+    };
+    let played = Played { animation: at, begin, fps: rate.fps() };
+    let scene = GltfScene::new(&document, &mut buffers, (given.bytes, &body), played)?;
+    let (clip, named) = posed.clip(rate).map_err(|error| of_take(error, at, name))?;
     let clip = clip.with_declared(Declared::y_up(1.0));
     let finer = rates::finer(times, begin, rate).filter(|_| options.fps.is_none());
     let warnings: Vec<Warning> = told.into_iter().chain(named).chain(far).chain(finer).collect();
@@ -92,16 +100,49 @@ pub(crate) fn read(given: &Given<'_>, options: &Options) -> Result<Read, Error> 
         let message = format!("joints called by their names of VRM: {}", called.len());
         found.push(Found::new("names", message));
     }
-    let cameras = document.nodes.iter().filter(|node| node.camera.is_some()).count();
-    let called = |node: &usize| document.nodes[*node].name.as_deref().unwrap_or("without a name");
-    let beside: Vec<&str> = left_out.iter().map(called).collect();
-    let beside = join_names(&beside);
-    found.extend(Found::left_out(&[
-        (motion.left_out, "curves of shapes or other things"),
-        (cameras, "cameras"),
-        (left_out.len(), &format!("nodes that move beside the body: {beside}")),
-    ]));
+    let scene = scene.unwrap_or_default();
+    found.extend(scene.found());
+    if !scene.lost.is_empty() {
+        found.push(Found::new("left out", format!("left out: {}", scene.lost.join(", "))));
+    }
+    let camera = cameras.path();
+    let is_alone = camera.is_none() && scene == GltfScene::default();
+    let clip = if is_alone { clip } else { clip.with_beside(Beside::new(camera).keep(scene)) };
     Ok(Read { clip, warnings, written_frame_time: None, found, takes })
+}
+
+/// Reads the way of the first camera that an animation moves, or of the first camera, over some frames of a clip at a
+/// rate. The animation begins with the clip.
+///
+/// # Errors
+/// Those of [`read`]; [`Error::Motion`] if there is no camera.
+pub(crate) fn camera_path(
+    given: &Given<'_>,
+    options: &Options,
+    (frames, rate): (usize, FrameRate),
+) -> Result<CameraPath, Error> {
+    let (document, chunk) = Document::read(given.bytes)?;
+    let parents = document.parents()?;
+    let order = joints::order(&document, &parents);
+    let mut buffers = Buffers::new(&document, given, options, chunk);
+    let mut world = vec![DAffine3::IDENTITY; parents.len()];
+    let mut first = None;
+    for at in 0..document.animations.len() {
+        let motion = Motion::read(&document, &mut buffers, at, options)?;
+        let begin = motion.times().first().copied().unwrap_or_default();
+        let mut cameras = Cameras::new(&document);
+        for frame in 0..frames {
+            let time = begin + frame as f64 / rate.fps();
+            place(&order, &parents, &mut world, |node| motion.local(&document, node, time, rate));
+            cameras.add(&world);
+        }
+        match cameras.path() {
+            Some(path) if path.moves() => return Ok(path),
+            path => first = first.or(path),
+        }
+    }
+    let message = "it has no camera with an animation; export one with it";
+    first.ok_or_else(|| Error::Motion { place: Place::Whole, message: message.into() })
 }
 
 fn name_of(animation: &Animation, at: usize) -> String {
@@ -155,15 +196,12 @@ impl Motion {
         options: &Options,
     ) -> Result<Self, Error> {
         let animation = &document.animations[at];
-        let mut motion = Self { left_out: 0, ..Self::default() };
+        let mut motion = Self::default();
         motion.nodes.resize_with(document.nodes.len(), Moved::default);
         let mut numbers = 0;
         for (channel_at, channel) in animation.channels.iter().enumerate() {
             let part = format!("animations[{at}].channels[{channel_at}]");
-            let Some(node) = channel.target.node else {
-                motion.left_out += 1;
-                continue;
-            };
+            let Some(node) = channel.target.node else { continue };
             let Some(moved) = motion.nodes.get_mut(node) else {
                 return Err(wrong(part, format!("there is no node {node}")));
             };
@@ -171,16 +209,13 @@ impl Motion {
                 "translation" => (&mut moved.translation, 3),
                 "rotation" => (&mut moved.rotation, 4),
                 "scale" => (&mut moved.scale, 3),
-                _ => {
-                    motion.left_out += 1;
-                    continue;
-                }
+                _ => continue,
             };
             let Some(sampler) = animation.samplers.get(channel.sampler) else {
                 return Err(wrong(part, format!("there is no sampler {}", channel.sampler)));
             };
             let sampler_part = format!("animations[{at}].samplers[{}]", channel.sampler);
-            let curve = Curve::read(document, buffers, sampler, width, &sampler_part)?;
+            let curve = Curve::read(document, buffers, sampler, Some(width), &sampler_part)?;
             numbers += curve.numbers();
             if numbers as u64 > options.stream.bytes / 8 {
                 let message = "its curves have more numbers than are taken into memory; --memory GIB allows more";

@@ -66,6 +66,6 @@ fn field(name: &str, encoding: &'static Encoding) -> Vec<u8> {
     bytes[..bytes.len().min(WIDTH)].to_vec()
 }
 
-fn up_to_zero(field: &[u8]) -> &[u8] {
+pub(super) fn up_to_zero(field: &[u8]) -> &[u8] {
     field.split(|byte| *byte == 0).next().unwrap_or_default()
 }

@@ -4,19 +4,16 @@ use std::collections::{BTreeMap, HashMap};
 
 use glam::{DQuat, DVec3};
 
+use super::beside::VmdBeside;
 use super::curve::Curve;
 use super::names::{self, Names};
 use super::{RATE, SIGNATURE, damaged};
 use crate::rates;
 use genga::error::{Error, Place, Warning};
 
-/// Bytes of each record or field: a bone key, its name, a morph key, and so on.
+/// Bytes of each record or field: a bone key, its name, a switch of IK.
 const KEY: usize = 111;
 const NAME: usize = names::WIDTH;
-const MORPH: usize = 23;
-const CAMERA: usize = 61;
-const LIGHT: usize = 28;
-const SHADOW: usize = 9;
 const SWITCH: usize = 21;
 
 /// A bone key, in right-handed axes with +Z in front.
@@ -44,20 +41,20 @@ pub(super) struct Motion {
     pub(super) switches: HashMap<String, Vec<(u32, bool)>>,
     /// The last keyed frame, and the byte offset of a key on it.
     pub(super) last: (u32, usize),
-    /// Other data in the file: the number and name of each kind.
-    pub(super) left_out: Vec<(usize, &'static str)>,
+    /// What the file holds beside the bones.
+    pub(super) beside: VmdBeside,
     /// The warning that keys lie too far behind the others to belong to this motion and are left out.
     pub(super) far: Option<Warning>,
 }
 
 /// The bytes of the file, and the offset of the next one.
-struct Bytes<'a> {
+pub(super) struct Bytes<'a> {
     all: &'a [u8],
-    at: usize,
+    pub(super) at: usize,
 }
 
 impl<'a> Bytes<'a> {
-    fn take(&mut self, count: usize, what: &str) -> Result<&'a [u8], Error> {
+    pub(super) fn take(&mut self, count: usize, what: &str) -> Result<&'a [u8], Error> {
         let taken = self.all.get(self.at..).and_then(|left| left.get(..count));
         let taken = taken.ok_or_else(|| {
             damaged(self.at, format!("the file ends in its {what}: {count} more bytes belong here"))
@@ -72,7 +69,7 @@ impl<'a> Bytes<'a> {
     }
 
     /// Reads the number of records that follow, and checks it against the bytes left.
-    fn count(&mut self, size: usize, what: &str) -> Result<usize, Error> {
+    pub(super) fn count(&mut self, size: usize, what: &str) -> Result<usize, Error> {
         let at = self.at;
         let (count, left) = (self.long(what)? as usize, self.all.len() - self.at);
         if count > left / size {
@@ -89,18 +86,41 @@ impl<'a> Bytes<'a> {
     }
 
     /// Whether the file ends here. Files of older versions end between two kinds of records.
-    fn is_done(&self) -> bool {
+    pub(super) fn is_done(&self) -> bool {
         self.at >= self.all.len()
     }
 }
 
 impl Motion {
-    /// Reads a VMD file.
+    /// Reads a VMD file that moves a body.
     ///
     /// # Errors
     /// [`Error::Motion`] with the byte if the file ends early, declares more records than it has, holds a
     /// non-finite number, or has no bone key.
     pub(super) fn read(all: &[u8]) -> Result<Self, Error> {
+        let mut motion = Self::read_any(all)?;
+        if motion.bones.is_empty() {
+            let other = motion.beside.counts();
+            let other: Vec<String> =
+                other.into_iter().map(|(count, what)| format!("{count} {what}")).collect();
+            let but = if other.is_empty() { "" } else { ", but " };
+            let hint = if motion.beside.camera.keys.is_empty() {
+                ""
+            } else {
+                "; give the motion of a body, and this with --camera-work"
+            };
+            let message = format!("this VMD has no key of a bone{but}{}{hint}", other.join(", "));
+            return Err(damaged(all.len(), message));
+        }
+        motion.leave_out_far_keys()?;
+        Ok(motion)
+    }
+
+    /// Reads a VMD file, which may have no bone.
+    ///
+    /// # Errors
+    /// Those of [`Motion::read`], but for the bone key.
+    pub(super) fn read_any(all: &[u8]) -> Result<Self, Error> {
         let mut bytes = Bytes { all, at: 0 };
         let signature = bytes.take(30, "signature")?;
         if !signature.starts_with(SIGNATURE) {
@@ -118,27 +138,12 @@ impl Motion {
             bones: BTreeMap::new(),
             switches: HashMap::new(),
             last: (0, begin),
-            left_out: Vec::new(),
+            beside: VmdBeside::default(),
             far: None,
         };
         motion.read_keys(keys, begin + 4)?;
-        for (size, what) in [
-            (MORPH, "keys of the face"),
-            (CAMERA, "keys of the camera"),
-            (LIGHT, "keys of the light"),
-            (SHADOW, "keys of the shadow"),
-        ] {
-            motion.skip(&mut bytes, size, what)?;
-        }
+        motion.beside = VmdBeside::read(&mut bytes)?;
         motion.read_switches(&mut bytes)?;
-        if motion.bones.is_empty() {
-            let other = motion.left_out.iter().map(|(count, what)| format!("{count} {what}"));
-            let other: Vec<String> = other.collect();
-            let but = if other.is_empty() { "" } else { ", but " };
-            let message = format!("this VMD has no key of a bone{but}{}", other.join(", "));
-            return Err(damaged(all.len(), message));
-        }
-        motion.leave_out_far_keys()?;
         Ok(motion)
     }
 
@@ -185,30 +190,15 @@ impl Motion {
         Ok(())
     }
 
-    fn skip(
-        &mut self,
-        bytes: &mut Bytes<'_>,
-        size: usize,
-        what: &'static str,
-    ) -> Result<(), Error> {
-        if bytes.is_done() {
-            return Ok(());
-        }
-        let count = bytes.count(size, what)?;
-        bytes.take(count * size, what)?;
-        if count > 0 {
-            self.left_out.push((count, what));
-        }
-        Ok(())
-    }
-
     fn read_switches(&mut self, bytes: &mut Bytes<'_>) -> Result<(), Error> {
         if bytes.is_done() {
             return Ok(());
         }
+        let mut shown = Vec::new();
         for _ in 0..bytes.count(4 + 1 + 4, "switches of IK")? {
             let frame = bytes.long("switches of IK")?;
-            bytes.take(1, "switches of IK")?;
+            let is_shown = bytes.take(1, "switches of IK")? != [0];
+            shown.push((frame, [f64::from(u8::from(is_shown))]));
             for _ in 0..bytes.count(SWITCH, "switches of IK")? {
                 let switch = bytes.take(SWITCH, "switches of IK")?;
                 let ik = self.names.read(&switch[..SWITCH - 1]);
@@ -217,6 +207,7 @@ impl Motion {
             }
         }
         self.switches.values_mut().for_each(|of| of.sort_by_key(|(frame, _)| *frame));
+        self.beside.show(shown);
         Ok(())
     }
 

@@ -61,7 +61,8 @@ proptest! {
             rotation: [d, e, f, g],
             curves,
         };
-        let motion = VmdMotion { model, keys: keys.into_iter().map(key).collect(), ik_off: ik };
+        let keys = keys.into_iter().map(key).collect();
+        let motion = VmdMotion { model, keys, ik_off: ik, faces: vec![], shown: vec![] };
         prop_assert_eq!(read(&motion.bytes().unwrap()).motion, motion);
     }
 

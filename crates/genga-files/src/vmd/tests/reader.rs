@@ -72,5 +72,6 @@ pub(super) fn read(bytes: &[u8]) -> Read {
         }
     }
     assert!(bytes.0.is_empty(), "{} bytes are left", bytes.0.len());
-    Read { motion: VmdMotion { model, keys, ik_off }, interpolation, visible }
+    let motion = VmdMotion { model, keys, ik_off, faces: vec![], shown: vec![] };
+    Read { motion, interpolation, visible }
 }

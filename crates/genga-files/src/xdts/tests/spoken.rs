@@ -94,7 +94,8 @@ proptest! {
 #[test]
 fn camera_work_is_in_the_camera_column_with_its_words_first() {
     let mut sheet = super::sheets::cut_of_24();
-    let work = |begin, koma, words: &str| CameraWork { begin, koma, words: words.into() };
+    let work =
+        |begin, koma, words: &str| CameraWork { begin, koma, words: words.into(), is_guess: false };
     sheet.camera = vec![work(2, 3, "PAN"), work(3, 2, "T.U")];
     let text = Xdts::default().write(&sheet, "c1").unwrap().genga;
     let file: serde_json::Value = serde_json::from_str(text.split_once('\n').unwrap().1).unwrap();

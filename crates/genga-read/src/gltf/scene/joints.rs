@@ -18,14 +18,7 @@ pub(super) fn order(document: &Document, parents: &[Option<usize>]) -> Vec<usize
     order
 }
 
-/// The nodes that become joints, parents first, each with the index of its parent joint; and the moving
-/// nodes that become none.
-pub(super) struct Joints {
-    pub(super) joints: Vec<(usize, Option<usize>)>,
-    pub(super) left_out: Vec<usize>,
-}
-
-/// Chooses the joints: the bones of VRM and of skins, and the moving nodes in their trees or, without such
+/// Chooses the nodes that become joints, parents first, each with the index of its parent joint: the bones of VRM and of skins, and the moving nodes in their trees or, without such
 /// bones, the nodes that the animation moves and the nodes that hang on them. Trees that hang on one node
 /// are joined.
 pub(super) fn find(
@@ -33,11 +26,10 @@ pub(super) fn find(
     parents: &[Option<usize>],
     motion: &Motion,
     called: &BTreeMap<usize, String>,
-) -> Joints {
+) -> Vec<(usize, Option<usize>)> {
     let order = order(document, parents);
     let is_seen = |Node { camera, mesh, .. }: &Node| camera.is_some() || mesh.is_some();
     let is_seen: Vec<bool> = document.nodes.iter().map(is_seen).collect();
-    let mut left_out = Vec::new();
     let mut chosen = vec![false; parents.len()];
     let bones = document.skins.iter().flat_map(|skin| skin.joints.iter().copied());
     for node in called.keys().copied().chain(bones) {
@@ -46,12 +38,17 @@ pub(super) fn find(
     if chosen.contains(&true) {
         let moves: Vec<bool> = motion.nodes.iter().map(Moved::moves).collect();
         let nodes = Nodes { order: &order, parents, moves: &moves, is_seen: &is_seen };
-        left_out = nodes.choose_moving(&mut chosen);
+        nodes.choose_moving(&mut chosen);
     } else {
+        // A camera that moves is no body, unless nothing else moves.
+        let is_camera = |node: usize| document.nodes[node].camera.is_some();
+        let is_body = |node: usize| motion.nodes[node].is_moved() && !is_camera(node);
+        let has_body = order.iter().any(|node| is_body(*node));
         // Nodes that hang on a moving node move with it.
         for &node in &order {
             let hangs = !is_seen[node] && parents[node].is_some_and(|parent| chosen[parent]);
-            chosen[node] = motion.nodes[node].is_moved() || hangs;
+            let moves = if has_body { is_body(node) } else { motion.nodes[node].is_moved() };
+            chosen[node] = moves || hangs;
         }
     }
     join(&order, parents, &mut chosen, |_| true);
@@ -65,5 +62,5 @@ pub(super) fn find(
             joints.push((node, carrier));
         }
     }
-    Joints { joints, left_out }
+    joints
 }
