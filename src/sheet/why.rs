@@ -169,3 +169,84 @@ impl fmt::Display for Why {
         f.write_str(&reasons.join("; "))
     }
 }
+
+impl Why {
+    /// Returns the reasons in Japanese, as many as [`Display`](fmt::Display) has in English.
+    ///
+    /// ```
+    /// use genga::sheet::{Reason, Why};
+    ///
+    /// let why = Why { reason: Some(Reason::Rest), omitted_before: 1, ..Why::default() };
+    /// assert_eq!(why.japanese(), "止めの始まりか終わり、1枚を直前で抜いた（中無し）");
+    /// ```
+    pub fn japanese(&self) -> String {
+        let mut reasons: Vec<String> = Vec::new();
+        match self.pinned.as_deref() {
+            None => {}
+            Some("") => reasons.push("固定".into()),
+            Some(name) => reasons.push(format!("固定「{name}」")),
+        }
+        if let Some(from) = self.moved_from {
+            reasons.push(format!("フレーム{from}から移動"));
+        }
+        match self.reason {
+            Some(Reason::Fill) => reasons.push("ないと動きが崩れる".into()),
+            Some(Reason::Rest) => reasons.push("止めの始まりか終わり".into()),
+            Some(Reason::Contact) => reasons.push("足か手が着く、または離れる".into()),
+            Some(Reason::Step) => reasons.push("歩き・走りの一歩ごとの原画".into()),
+            Some(Reason::Turn | Reason::Pin) | None => {}
+        }
+        match &*self.voters {
+            [] => {}
+            [one] => reasons.push(format!("{one}の変わり目")),
+            [first, others @ ..] => {
+                reasons.push(format!("{first}ほか{}か所の変わり目", others.len()));
+            }
+        }
+        if let Some(price) = self.price {
+            reasons.push(format!("身長の{price:.1}%の誤差を防ぐ"));
+        }
+        let by = if self.hold_set { "" } else { "（コマ撮り）" };
+        for (count, what) in [
+            (self.omitted_before, "枚を直前で抜いた（中無し）".to_owned()),
+            (self.lengthened, "コマ長くなった（中無し）".to_owned()),
+            (self.held_for, format!("枚分止めた{by}")),
+        ] {
+            if count > 0 {
+                reasons.push(format!("{count}{what}"));
+            }
+        }
+        if self.hold_set {
+            reasons.push("長さは手動で指定".into());
+        }
+        reasons.join("、")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn japanese_has_as_many_reasons_as_english() {
+        let all = Why {
+            voters: ["Hips", "Head"].into_iter().collect(),
+            pinned: Some("hit".into()),
+            moved_from: Some(12),
+            reason: Some(Reason::Rest),
+            price: Some(8.25),
+            lengthened: 1,
+            omitted_before: 2,
+            held_for: 3,
+            hold_set: true,
+            ..Why::default()
+        };
+        let count = |text: String, between: &str| text.split(between).count();
+        assert_eq!(count(all.japanese(), "、"), count(all.to_string(), "; "));
+        assert_eq!(Why::default().japanese(), "");
+        assert_eq!(
+            Why { omitted_before: 1, price: Some(10.0), ..Why::default() }.japanese(),
+            "身長の10.0%の誤差を防ぐ、1枚を直前で抜いた（中無し）"
+        );
+    }
+}

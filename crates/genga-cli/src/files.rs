@@ -6,6 +6,7 @@ use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::Path;
 
+use super::console::Words;
 use super::failure::Failure;
 use super::paths::{self, is_stream, named};
 use super::staging::{self, Staging};
@@ -86,8 +87,14 @@ fn json(name: &impl Display, data: &impl Serialize) -> Result<String, Failure> {
     Ok(text + "\n")
 }
 
-/// Writes a picture as SVG, or as PNG or PDF if the name ends in `.png` or `.pdf`.
-pub(super) fn write_picture(path: &Path, svg: &str) -> Result<(), Failure> {
+/// Writes a picture as SVG, or as PNG or PDF if the name ends in `.png` or `.pdf`, and says if these have no letters.
+pub(super) fn write_picture(path: &Path, svg: &str, words: &Words) -> Result<(), Failure> {
+    #[cfg(feature = "pictures")]
+    if matches!(paths::ending(path).as_deref(), Some("png" | "pdf")) {
+        genga_plot::font_note().iter().for_each(|note| words.warn(note));
+    }
+    #[cfg(not(feature = "pictures"))]
+    let _ = words;
     match paths::ending(path).as_deref() {
         #[cfg(feature = "pictures")]
         Some("png") => write(path, &genga_plot::png_from_svg(svg, 2.0)?),

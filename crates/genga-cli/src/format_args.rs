@@ -344,7 +344,11 @@ impl Formats {
         put: &mut Sink<'_>,
     ) -> Result<(), Error> {
         match format.try_write(cut, &self.settings, put)? {
-            Attempt::Made(notes) => said.notes.extend(notes),
+            // Several formats may say the same.
+            Attempt::Made(notes) => {
+                let fresh = notes.into_iter().filter(|note| !said.notes.contains(note));
+                said.notes.extend(fresh.collect::<Vec<_>>());
+            }
             Attempt::NotMade(error) if self.is_named(format.name) => {
                 said.unmade.push((format, error));
             }

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::{Cut, Settings, Sink};
-use genga::error::Error;
+use genga::error::{Error, Warning};
 use genga::knob::{knob, knobs};
 use genga_plot::{Camera, FigureBody};
 
@@ -103,6 +103,17 @@ fn put_pages(
 #[cfg(feature = "pictures")]
 fn png(svg: &str) -> Result<Vec<u8>, Error> {
     genga_plot::png_from_svg(svg, 1.0)
+}
+
+/// Returns a warning if pages are asked for in pixels and this machine has no fonts for their words.
+#[cfg(feature = "pictures")]
+pub(super) fn font_note(settings: &Settings) -> Option<Warning> {
+    settings.figures.png.then(genga_plot::font_note).flatten()
+}
+
+#[cfg(not(feature = "pictures"))]
+pub(super) fn font_note(_: &Settings) -> Option<Warning> {
+    None
 }
 
 #[cfg(not(feature = "pictures"))]

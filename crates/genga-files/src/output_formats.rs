@@ -285,7 +285,11 @@ pub const FORMATS: &[Format] = &[
         files: &["strip.svg"],
         is_numbered: true,
         make: figures::strip,
-        notes: |cut, settings| Ok(shortened("strip", settings.strip.most, drawn(cut.sheet))),
+        notes: |cut, settings| {
+            let mut notes = shortened("strip", settings.strip.most, drawn(cut.sheet));
+            notes.extend(figures::font_note(settings));
+            Ok(notes)
+        },
     },
     Format {
         name: "contact",
@@ -295,6 +299,7 @@ pub const FORMATS: &[Format] = &[
         files: &["contact.svg"],
         is_numbered: true,
         make: figures::contact,
+        notes: |_, settings| Ok(figures::font_note(settings).into_iter().collect()),
         ..PLAIN
     },
     Format {
@@ -305,6 +310,7 @@ pub const FORMATS: &[Format] = &[
         files: &["onion.svg"],
         is_numbered: true,
         make: figures::onion,
+        notes: |_, settings| Ok(figures::font_note(settings).into_iter().collect()),
         ..PLAIN
     },
     Format {
@@ -326,7 +332,9 @@ pub const FORMATS: &[Format] = &[
         files: &["preview.gif"],
         make: figures::preview,
         notes: |cut, settings| {
-            Ok(shortened("preview", settings.preview.most, cut.sheet.cut_length()))
+            let mut notes = shortened("preview", settings.preview.most, cut.sheet.cut_length());
+            notes.extend(genga_plot::font_note());
+            Ok(notes)
         },
         ..PLAIN
     },

@@ -248,13 +248,41 @@ impl Canvas {
         ));
     }
 
-    /// Draws a number in a circle (丸数字), which is filled for pinned drawings.
+    /// Draws the number of a genga in a circle (丸数字), which is filled for pinned drawings.
     pub(super) fn badge(&mut self, center: Point, number: usize, color: RGBColor, filled: bool) {
         let (fill, ink) = if filled { (color, style::PAPER) } else { (style::PAPER, color) };
-        self.circle(center, style::BADGE - 0.6, Some(fill), Some((color, 1.2)));
-        let size = [11.0, 10.0, 8.0][number.to_string().len().clamp(1, 3) - 1];
-        let look = Type::new(size).bold().color(ink).align(Align::Center);
-        self.text(&number.to_string(), (center.0, center.1 + 0.36 * size), look);
+        let (reach, radius) = (style::badge_reach(number) - 0.6, style::BADGE - 0.6);
+        match number {
+            0..=99 => self.circle(center, radius, Some(fill), Some((color, 1.2))),
+            _ => self.pill(center, (reach, radius), fill, (color, 1.2)),
+        }
+        let look = Type::new(style::SMALL).bold().color(ink).align(Align::Center);
+        self.text(&number.to_string(), (center.0, center.1 + 0.36 * style::SMALL), look);
+    }
+
+    /// Draws a circle that is longer than high, by half its length and half its height.
+    fn pill(
+        &mut self,
+        (x, y): Point,
+        (reach, radius): (f64, f64),
+        fill: RGBColor,
+        (edge, width): (RGBColor, f64),
+    ) {
+        let (left, top, radius) = (tenth(x - reach), tenth(y - radius), tenth(radius));
+        let (width, stroke) = (tenth(2.0 * reach), stroke(edge, width));
+        let (high, fill) = (tenth(2.0 * radius), hex(fill));
+        self.tag(format_args!(
+            "<rect x=\"{left}\" y=\"{top}\" width=\"{width}\" height=\"{high}\" rx=\"{radius}\" \
+             fill=\"{fill}\"{stroke}/>"
+        ));
+    }
+
+    /// Draws the sign of a curve that is cut off: two strokes across it, with paper between them.
+    pub(super) fn cut(&mut self, (x, y): Point) {
+        self.line((x - 5.0, y + 2.5), (x + 5.0, y - 2.5), style::PAPER, 4.0);
+        for off in [-2.0, 2.0] {
+            self.line((x - 5.0, y + 2.5 + off), (x + 5.0, y - 2.5 + off), style::INK, 1.25);
+        }
     }
 
     /// Draws a figure. Consecutive lines of one look become one path.

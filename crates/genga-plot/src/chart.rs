@@ -19,7 +19,7 @@ use crate::paper_point::Point;
 use crate::style;
 use genga::error::Error;
 
-pub(super) use axis::{Axis, number, range_with_zero};
+pub(super) use axis::{Axis, number, range_with_zero, robust_top};
 
 /// Length of a tick in px. The library writes labels twice as far from the axis.
 const TICK: f64 = 4.0;

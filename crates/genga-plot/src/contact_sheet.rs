@@ -7,6 +7,7 @@ use crate::canvas::{Align, Canvas, Inks, Type};
 use crate::chart::number;
 use crate::drawings::{ShownDrawing, composed, drawn_poses, seconds_and_koma, shown_drawings};
 use crate::figure::{Figure, FigureBody};
+use crate::legend::SIDES;
 use crate::page_head::{self, Head};
 use crate::paper_point::Point;
 use crate::shared;
@@ -27,7 +28,7 @@ pub struct ContactSheet {
     /// How figures are drawn; default mannequin. Set by `figures.body`, for all pictures.
     #[serde(skip)]
     pub body: FigureBody,
-    /// Maximum width in px, 600 to 20000; default 1280.
+    /// Maximum width in px, 600 to 20000; default 960.
     pub width: u32,
     /// Height of the tallest figure in px, 40 to 2000; default 130.
     pub figure_height: u32,
@@ -44,7 +45,7 @@ impl Default for ContactSheet {
         Self {
             camera: Camera::Auto,
             body: FigureBody::default(),
-            width: 1280,
+            width: style::WIDTH,
             figure_height: 130,
             in_row: 8,
             rows: 6,
@@ -101,14 +102,16 @@ impl ContactSheet {
         if cards.is_empty() {
             return Err(style::cannot("the sheet has no genga to show"));
         }
+        let cards: Vec<Card<'_>> =
+            cards.into_iter().map(|cell| Card::new(cell, sheet.clock.koma_rate)).collect();
         let table = self.table(clip, figure, &poses, &cards);
         let on_page = table.columns * self.rows;
         let pages = cards.len().div_ceil(on_page);
-        let page = |(at, cards): (usize, &[ShownDrawing<'_>])| {
+        let page = |(at, cards): (usize, &[Card<'_>])| {
             let facts = page_head::facts(sheet, layer);
             let title = "Contact sheet 原画一覧";
-            let head = Head { title, cut, facts, page: (at + 1, pages) };
-            table.draw(cards, &poses, sheet.clock.koma_rate, &head)
+            let head = Head { title, cut, facts, legend: &SIDES, page: (at + 1, pages) };
+            table.draw(cards, &poses, &head)
         };
         Ok(cards.chunks(on_page).enumerate().map(page).collect())
     }
@@ -118,7 +121,7 @@ impl ContactSheet {
         clip: &Clip,
         figure: Figure,
         poses: &[Vec<DVec3>],
-        cards: &[ShownDrawing<'_>],
+        cards: &[Card<'_>],
     ) -> Table {
         let view = self.camera.view(clip, poses);
         let floor = Bounds::new(&figure, &view, poses).floor;
@@ -126,12 +129,13 @@ impl ContactSheet {
         let room = f64::from(self.width) - 2.0 * style::MARGIN;
         let high = f64::from(self.figure_height);
         let scale = fitting(size, (room - 16.0, high));
-        let least = (size.0 * scale + 16.0 + GAP).max(110.0);
+        let words = cards.iter().map(Card::width).fold(size.0 * scale + 16.0, f64::max);
+        let least = (words + GAP).max(110.0);
         let columns = (((room + GAP) / least).floor().max(1.0) as usize).min(self.in_row);
         let card = (room + GAP) / columns as f64 - GAP;
         let stage = Stage { figure, view, scale, origin: (0.0, floor), at: (0.0, 0.0) };
         let columns = columns.min(cards.len());
-        let lines = cards.iter().map(|cell| reasons(cell, card).len()).max().unwrap_or_default();
+        let lines = cards.iter().map(|words| words.reasons(card).len()).max().unwrap_or_default();
         let labels = LABELS + LINE * lines.max(1) as f64;
         let width =
             (2.0 * style::MARGIN + (card + GAP) * columns as f64 - GAP).max(page_head::NARROWEST);
@@ -150,52 +154,74 @@ struct Table {
     width: f64,
 }
 
-/// Returns the reasons for a drawing, wrapped to the lines of a card.
-fn reasons(cell: &ShownDrawing<'_>, width: f64) -> Vec<String> {
-    style::lines(&cell.reasons(), style::SMALL, width - 14.0)
+/// The words of a card.
+struct Card<'a> {
+    cell: ShownDrawing<'a>,
+    /// The drawing's number in the CELL column, and when it comes.
+    head: [String; 2],
+    /// Where it is from and how long it stays.
+    facts: String,
+}
+
+impl<'a> Card<'a> {
+    fn new(cell: ShownDrawing<'a>, koma_rate: f64) -> Self {
+        let head = [format!("drawing {}", cell.number()), seconds_and_koma(cell.koma, koma_rate)];
+        let place = number((cell.drawing.source.place() * 10.0).round() / 10.0);
+        let held = if cell.held == 1 { String::new() } else { format!(" · {} koma", cell.held) };
+        Self { cell, head, facts: format!("frame {place}{held}") }
+    }
+
+    /// Returns half the width of the sign of its genga, in px.
+    fn reach(&self) -> f64 {
+        self.cell.genga.map_or(style::BADGE, style::badge_reach)
+    }
+
+    /// Returns the width that its words need, in px.
+    fn width(&self) -> f64 {
+        let small = |words: &String| style::text_width(words, style::SMALL);
+        let head = 2.0 * self.reach() + self.head.iter().map(small).sum::<f64>() + 36.0;
+        let reasons = self.cell.reasons();
+        let below = reasons.iter().chain([&self.facts]).map(small).fold(0.0, f64::max) + 16.0;
+        head.max(below)
+    }
+
+    /// Returns the reasons for its drawing, wrapped to the lines of a card of a width.
+    fn reasons(&self, width: f64) -> Vec<String> {
+        style::lines(&self.cell.reasons(), style::SMALL, width - 14.0)
+    }
 }
 
 impl Table {
-    fn draw(
-        &self,
-        cards: &[ShownDrawing<'_>],
-        poses: &[Vec<DVec3>],
-        koma_rate: f64,
-        head: &Head<'_>,
-    ) -> String {
+    fn draw(&self, cards: &[Card<'_>], poses: &[Vec<DVec3>], head: &Head<'_>) -> String {
         let rows = cards.len().div_ceil(self.columns);
         let height = page_head::HEAD + (self.card.1 + GAP) * rows as f64 - GAP + style::MARGIN;
         let mut canvas = Canvas::new((self.width, height));
         head.draw(&mut canvas, self.width);
-        for (at, cell) in cards.iter().enumerate() {
+        for (at, card) in cards.iter().enumerate() {
             let (row, column) = (at / self.columns, at % self.columns);
             let x = style::MARGIN + (self.card.0 + GAP) * column as f64;
             let y = page_head::HEAD + (self.card.1 + GAP) * row as f64;
-            self.draw_card(&mut canvas, cell, &poses[cell.index], (x, y), koma_rate);
+            self.draw_card(&mut canvas, card, &poses[card.cell.index], (x, y));
         }
         canvas.finish()
     }
 
-    fn draw_card(
-        &self,
-        canvas: &mut Canvas,
-        cell: &ShownDrawing<'_>,
-        pose: &[DVec3],
-        (x, y): Point,
-        koma_rate: f64,
-    ) {
+    fn draw_card(&self, canvas: &mut Canvas, card: &Card<'_>, pose: &[DVec3], (x, y): Point) {
         let (width, height) = self.card;
+        let cell = &card.cell;
         let (middle, right) = (x + 0.5 * width, x + width - 10.0);
         canvas.frame((x, y), self.card, style::GRID, 6.0);
         let color = style::of_role(cell.drawing.role);
+        let reach = card.reach();
+        let sign = (x + 8.0 + reach, y + 18.0);
         match cell.genga {
-            Some(genga) => canvas.badge((x + 18.0, y + 18.0), genga, color, cell.is_pinned()),
-            None => canvas.disc((x + 18.0, y + 18.0), 3.0, color),
+            Some(genga) => canvas.badge(sign, genga, color, cell.is_pinned()),
+            None => canvas.disc(sign, 3.0, color),
         }
         let faint = Type::new(style::SMALL).color(style::FAINT);
-        canvas.text(&format!("drawing {}", cell.number()), (x + 32.0, y + 22.0), faint);
-        let time = seconds_and_koma(cell.koma, koma_rate);
-        canvas.text(&time, (right, y + 22.0), faint.align(Align::Right));
+        let [drawing, time] = &card.head;
+        canvas.text(drawing, (sign.0 + reach + 6.0, y + 22.0), faint);
+        canvas.text(time, (right, y + 22.0), faint.align(Align::Right));
         let floor = y + height - self.labels;
         canvas.line((x + 10.0, floor), (right, floor), style::GRID, 1.25);
         let inks =
@@ -204,12 +230,9 @@ impl Table {
         let look = Type::new(style::WORDS).color(color).align(Align::Center);
         let look = if cell.genga.is_some() { look.bold() } else { look };
         canvas.text(&format!("koma {}", cell.koma + 1), (middle, floor + 19.0), look);
-        let place = number((cell.drawing.source.place() * 10.0).round() / 10.0);
-        let held = if cell.held == 1 { String::new() } else { format!(" · {} koma", cell.held) };
-        let facts = format!("frame {place}{held}");
-        canvas.text(&facts, (middle, floor + 34.0), faint.align(Align::Center));
+        canvas.text(&card.facts, (middle, floor + 34.0), faint.align(Align::Center));
         let look = if cell.is_pinned() { faint.color(style::INK) } else { faint };
-        for (at, line) in reasons(cell, width).iter().enumerate() {
+        for (at, line) in card.reasons(width).iter().enumerate() {
             let base = floor + 49.0 + LINE * at as f64;
             canvas.text(line, (middle, base), look.align(Align::Center));
         }

@@ -8,6 +8,7 @@ use resvg::tiny_skia::{Pixmap, Transform};
 use resvg::usvg::{Options, Tree};
 
 use crate::style::{cannot, failed};
+pub use fonts::font_note;
 use genga::error::Error;
 #[cfg(feature = "pdf")]
 pub use pdf::pdf_from_svg;
@@ -18,7 +19,7 @@ const MOST: f32 = 32_000.0;
 /// Renders the picture as PNG, with `scale` px for one px of the SVG.
 ///
 /// Words use the fonts of the system; `sans-serif` is the first one found with Japanese letters. On a machine
-/// without any font the words are left out.
+/// without any font the words are left out: [`font_note`] says so.
 ///
 /// # Errors
 /// [`Error::Setting`] if the scale is not above 0; [`Error::Picture`] if the text is not SVG, or if the

@@ -50,7 +50,7 @@ impl ShownDrawing<'_> {
             reasons.push("hold 止め".to_owned());
         }
         if why.omitted_before > 0 {
-            reasons.push(format!("抜いた中割 {}", why.omitted_before));
+            reasons.push(format!("left out 抜いた中割 {}", why.omitted_before));
         }
         match why.reason {
             Some(reason @ (Reason::Fill | Reason::Rest | Reason::Contact | Reason::Step)) => {

@@ -5,18 +5,18 @@ use serde::{Deserialize, Serialize};
 use crate::browser::{self, PageFigure, STEPS, Steps, axes};
 use crate::canvas::escaped;
 use crate::drawings::{
-    beginning, composed, drawn_poses, seconds_and_koma, shown_drawings, sliding_poses,
+    beginning, composed, drawn_poses, seconds_and_koma, shown_as, sliding_poses,
 };
 use crate::figure::{Figure, FigureBody};
 use crate::points::Posing;
 use crate::shared;
 use genga::error::Error;
 use genga::knob::{Knobs, knobs};
-use genga::motion::{Camera, Clip, Composite, first_round};
+use genga::motion::{Camera, Clip, Composite, played_out};
 use genga::sheet::{Layer, Sheet, Source};
 
 /// A flip-book (パラパラ): source and result as one self-contained HTML file. It plays, steps by koma and by
-/// drawing, and turns to every side.
+/// drawing, and turns to every side. In the rounds of a loop (リピート) the body travels on.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct FlipBook {
@@ -51,6 +51,8 @@ struct Take<'a> {
     column: &'a str,
     koma_rate: f64,
     koma: usize,
+    /// How often the exposures of a loop come again.
+    rounds: usize,
     length: String,
     height: f64,
     points: usize,
@@ -71,11 +73,14 @@ struct Take<'a> {
 #[derive(Serialize)]
 struct PageDrawing {
     role: &'static str,
+    /// Number in the CELL column, from 1.
+    number: usize,
     genga: Option<usize>,
     /// Place in the source, to a tenth of a frame.
     frame: f64,
     pinned: bool,
     why: String,
+    why_japanese: String,
     omitted: usize,
     pose: Vec<i32>,
 }
@@ -98,12 +103,12 @@ impl FlipBook {
     /// sheet have nothing to show.
     pub fn draw(&self, cut: &str, clip: &Clip, sheet: &Sheet) -> Result<String, Error> {
         self.validate()?;
-        // The page itself plays again and again.
-        let (clip, sheet) = first_round(clip, sheet);
+        let (named, rounds) = (composed(clip, sheet)?.layer().clone(), sheet.rounds());
+        let (clip, sheet) = played_out(clip, sheet);
         let (clip, sheet) = (&*clip, &*sheet);
         let composite = composed(clip, sheet)?;
         let layer = beginning(composite.layer(), self.most);
-        let take = self.take(cut, &composite, sheet, &layer);
+        let take = self.take(cut, &composite, sheet, (&layer, &named, rounds));
         let take = browser::json_in_script(&take)?;
         let filled = [
             ("{{title}}", escaped(cut)),
@@ -119,7 +124,7 @@ impl FlipBook {
         cut: &'a str,
         composite: &Composite<'_>,
         sheet: &Sheet,
-        layer: &'a Layer,
+        (layer, named, rounds): (&'a Layer, &Layer, usize),
     ) -> Take<'a> {
         let clip = composite.clip();
         let koma = layer.length();
@@ -132,13 +137,17 @@ impl FlipBook {
         let views = Camera::ALL.map(|camera| (camera.word(), camera.view(clip, &source)));
         let auto = views[3].1;
         let steps = Steps::new(&figure, &auto, &source);
-        let cells = shown_drawings(layer);
-        let drawings = layer.drawings.iter().zip(&result).zip(layer.genga_numbers());
+        let cells = shown_as(layer, named);
+        // A drawing that is never shown keeps its own numbers.
+        let mut numbers: Vec<_> = (1..).zip(layer.genga_numbers()).collect();
+        cells.iter().for_each(|cell| numbers[cell.index] = (cell.number(), cell.genga));
+        let drawings = layer.drawings.iter().zip(&result).zip(numbers);
         Take {
             cut,
             column: &layer.name,
             koma_rate: sheet.clock.koma_rate,
             koma,
+            rounds,
             length: seconds_and_koma(koma, sheet.clock.koma_rate),
             height: STEPS,
             points: browser::points(&figure, &source[0]).len(),
@@ -147,12 +156,14 @@ impl FlipBook {
             views: views.into_iter().map(|(word, view)| (word, axes(&view))).collect(),
             cells: cells.iter().map(|cell| [cell.index, cell.koma, cell.held]).collect(),
             drawings: drawings
-                .map(|((drawing, pose), genga)| PageDrawing {
+                .map(|((drawing, pose), (number, genga))| PageDrawing {
                     role: drawing.role.word(),
+                    number,
                     genga,
                     frame: (drawing.source.place() * 10.0).round() / 10.0,
                     pinned: drawing.why.pinned.is_some(),
                     why: drawing.why.to_string(),
+                    why_japanese: drawing.why.japanese(),
                     omitted: drawing.why.omitted_before,
                     pose: steps.all(&figure, pose),
                 })

@@ -7,7 +7,8 @@ use crate::canvas::{Align, Canvas, Type};
 use crate::chart::{self, Plot, bar, number};
 use crate::paper_point::Point;
 use crate::study_chart::{check_per_second, headline, name, named, shown, unit};
-use crate::{style, title};
+use crate::style;
+use crate::title::Title;
 use genga::error::Error;
 use genga_lab::study::{Axis, Grid, Measure, Plateau};
 
@@ -25,11 +26,11 @@ pub struct HeatMap {
 
 /// Total width of all columns and total height of all rows, in px, unless a cell would be too large or too
 /// small.
-const COLUMNS: f64 = 800.0;
+const COLUMNS: f64 = 760.0;
 const ROWS: f64 = 480.0;
 
 /// Minimum and maximum of a cell's width and of its height, in px.
-const CELL: [(f64, f64); 2] = [(7.0, 72.0), (7.0, 34.0)];
+const CELL: [(f64, f64); 2] = [(1.0, 72.0), (7.0, 34.0)];
 
 /// Maximum number of cells in a row or a column: more would be illegible.
 const MOST_CELLS: usize = 1000;
@@ -92,7 +93,8 @@ impl HeatMap {
         let median = if grids.len() > 1 { "median 中央値, " } else { "" };
         let what = format!("{median}{}", unit(self.show, self.per_second));
         let free = map.scale(&mut canvas, &what);
-        title::draw(&mut canvas, &title, &named(clips), free - 8.0);
+        let width = free - 8.0 + style::MARGIN;
+        Title { words: &title, clips: &named(clips), legend: &[], width }.draw(&mut canvas);
         map.cells(&mut canvas, &values)?;
         if let Some(plateaus) = plateaus {
             map.edges(&mut canvas, grid, plateaus);
@@ -149,7 +151,7 @@ impl Map {
             cell,
             low: finite().fold(f64::INFINITY, f64::min),
             high: finite().fold(f64::NEG_INFINITY, f64::max),
-            type_size: (fits >= 7.0).then_some(fits),
+            type_size: (fits >= style::SMALL).then_some(fits),
         }
     }
 

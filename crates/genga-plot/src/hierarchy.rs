@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::canvas::{Align, Canvas, Inks, Type};
 use crate::figure::Figure;
+use crate::legend::SIDES;
 use crate::page_head::{self, Head};
 use crate::paper_point::Point;
 use crate::stage::{Bounds, Stage, fitting};
@@ -44,8 +45,8 @@ const DEEPEST: usize = 32;
 const GAP: f64 = 56.0;
 /// Space round the figure for the numbers, in px.
 const PAD: f64 = 18.0;
-/// Maximum width of the figure, in px.
-const WIDEST: f64 = 1200.0;
+/// Width that the figure has at least beside a wide tree, in px.
+const NARROW: f64 = 240.0;
 
 impl SkeletonPlot {
     /// Checks the settings.
@@ -74,20 +75,22 @@ impl SkeletonPlot {
         let bounds = Bounds::new(&figure, &view, &poses);
         let high = f64::from(self.figure_height);
         let size = (bounds.width(), bounds.top - bounds.floor);
-        let scale = fitting(size, (WIDEST, high));
         let left = style::MARGIN + PAD;
+        let shown = skeleton.len().min(self.most);
+        let tree = Tree::new(skeleton, shown, 0.0).right();
+        let room = f64::from(style::WIDTH) - left - GAP - tree - style::MARGIN;
+        let scale = fitting(size, (room.max(NARROW), high));
         let wide = (bounds.width() * scale).max(40.0);
         let floor = page_head::HEAD + PAD + size.1 * scale;
         let stage =
             Stage { figure, view, scale, origin: (bounds.left, bounds.floor), at: (left, floor) };
-        let shown = skeleton.len().min(self.most);
         let tree = Tree::new(skeleton, shown, left + wide + GAP);
         let width = (tree.right() + style::MARGIN).max(page_head::NARROWEST);
         let height = (floor + PAD).max(page_head::HEAD + LINE * shown as f64) + style::MARGIN;
         let mut canvas = Canvas::new((width, height));
         let title = "Skeleton 階層構造";
-        Head { title, cut: name, facts: facts(skeleton, shown), page: (1, 1) }
-            .draw(&mut canvas, width);
+        let facts = facts(skeleton, shown);
+        Head { title, cut: name, facts, legend: &SIDES, page: (1, 1) }.draw(&mut canvas, width);
         canvas.figure(&stage.draw(&poses[0]), Inks::Faded(0.45));
         let places = poses[0].iter().map(|point| stage.place(*point)).collect::<Vec<_>>();
         numbers(&mut canvas, skeleton, &places[..shown]);
@@ -120,7 +123,7 @@ fn facts(skeleton: &Skeleton, shown: usize) -> String {
 
 /// Draws a dot at each joint with its number beside it. Numbers without room are left out.
 fn numbers(canvas: &mut Canvas, skeleton: &Skeleton, places: &[Point]) {
-    let mut taken: Vec<Point> = Vec::new();
+    let mut taken: Vec<(Point, f64)> = Vec::new();
     for ((id, joint), &(x, y)) in skeleton.iter().zip(places) {
         let side = BodySide::from_name(&joint.name);
         canvas.spot((x, y), 3.0, style::side_color(side));
@@ -132,13 +135,16 @@ fn numbers(canvas: &mut Canvas, skeleton: &Skeleton, places: &[Point]) {
             BodySide::Right => (x - 13.0, y + 4.0),
             BodySide::Left | BodySide::Trunk => (x + 13.0, y + 4.0),
         };
-        let is_free =
-            |other: &Point| (other.0 - middle).abs() > 15.0 || (other.1 - base).abs() > 11.0;
+        let number = (id.0 + 1).to_string();
+        let wide = style::BOLDER * style::text_width(&number, style::SMALL);
+        let is_free = |(other, wider): &(Point, f64)| {
+            (other.0 - middle).abs() > 0.5 * (wide + wider) + 1.0 || (other.1 - base).abs() > 11.0
+        };
         if taken.iter().all(is_free) {
             let look =
                 Type::new(style::SMALL).bold().color(style::side_color(side)).align(Align::Center);
-            canvas.text(&(id.0 + 1).to_string(), (middle, base), look);
-            taken.push((middle, base));
+            canvas.text(&number, (middle, base), look);
+            taken.push(((middle, base), wide));
         }
     }
 }

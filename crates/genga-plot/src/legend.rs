@@ -1,4 +1,4 @@
-//! Draws the legend of a picture, on the right of its title.
+//! Draws the legend of a picture.
 
 use crate::canvas::{Canvas, Type};
 use crate::paper_point::Point;
@@ -18,15 +18,46 @@ pub(super) const SPLIT: Entry = ("next action 区切り", |canvas, (x, y)| {
     canvas.dashes((x, y - 9.0), (x, y + 9.0), style::INK, 1.25);
 });
 
-/// Draws entries up to a right edge, and returns the x at which they begin.
-pub(super) fn draw(canvas: &mut Canvas, right: f64, entries: &[Entry]) -> f64 {
-    let wide = |word: &str| style::text_width(word, style::WORDS) + 40.0;
-    let begin = right + 18.0 - entries.iter().map(|entry| wide(entry.0)).sum::<f64>();
-    let mut x = begin;
-    for (word, sign) in entries {
-        sign(canvas, (x + 9.0, 29.0));
-        canvas.text(word, (x + 22.0, 34.0), Type::new(style::WORDS));
-        x += wide(word);
+/// Entry of drawings that naka-nashi left out.
+pub(super) const LEFT_OUT: Entry =
+    ("left out 抜いた中割", |canvas, at| canvas.cross(at, 4.0, style::GENGA, 1.75));
+
+/// Entry of the sign of a curve that goes on beyond its lane.
+pub(super) const CUT: Entry = ("goes on 省略", Canvas::cut);
+
+/// Height of a line of entries, in px.
+pub(super) const LINE: f64 = 22.0;
+/// Width of a sign with the space round it, in px.
+const SIGN: f64 = 22.0;
+const BETWEEN: f64 = 18.0;
+
+/// Returns the width of some entries in one line, in px.
+pub(super) fn width(entries: &[Entry]) -> f64 {
+    let wide = |word: &str| SIGN + style::text_width(word, style::WORDS) + BETWEEN;
+    entries.iter().map(|entry| wide(entry.0)).sum::<f64>() - BETWEEN
+}
+
+/// Splits entries into as few lines of a width as they need.
+pub(super) fn lines(entries: &[Entry], room: f64) -> Vec<&[Entry]> {
+    let mut lines = Vec::new();
+    let mut begin = 0;
+    for end in 1..=entries.len() {
+        if end - begin > 1 && width(&entries[begin..end]) > room {
+            lines.push(&entries[begin..end - 1]);
+            begin = end - 1;
+        }
     }
-    begin
+    lines.extend((begin < entries.len()).then(|| &entries[begin..]));
+    lines
+}
+
+/// Draws entries in a line from a left edge, their words on the base line.
+pub(super) fn draw(canvas: &mut Canvas, (left, base): Point, entries: &[Entry]) {
+    let mut x = left;
+    for entry in entries {
+        let (word, sign) = *entry;
+        sign(canvas, (x + 9.0, base - 5.0));
+        canvas.text(word, (x + SIGN, base), Type::new(style::WORDS));
+        x += width(&[*entry]) + BETWEEN;
+    }
 }

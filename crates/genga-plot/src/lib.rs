@@ -52,7 +52,7 @@ pub use contact_sheet::ContactSheet;
 #[cfg(feature = "pdf")]
 pub use convert::pdf_from_svg;
 #[cfg(feature = "pictures")]
-pub use convert::png_from_svg;
+pub use convert::{font_note, png_from_svg};
 pub use figure::FigureBody;
 pub use flipbook::FlipBook;
 pub use genga::motion::Camera;

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use crate::canvas::{Align, Canvas, Inks, Type};
 use crate::drawings::{ShownDrawing, composed, drawn_poses, shown_drawings};
 use crate::figure::{Figure, FigureBody};
+use crate::legend::SIDES;
 use crate::page_head::{self, Head};
 use crate::paper_point::Point;
 use crate::shared;
@@ -27,7 +28,7 @@ pub struct OnionSkin {
     /// How figures are drawn; default mannequin. Set by `figures.body`, for all pictures.
     #[serde(skip)]
     pub body: FigureBody,
-    /// Width in px, 600 to 20000; default 1280.
+    /// Width in px, 600 to 20000; default 960.
     pub width: u32,
     /// Height of the tallest panel's figures in px, 40 to 2000; default 220.
     pub figure_height: u32,
@@ -40,7 +41,7 @@ impl Default for OnionSkin {
         Self {
             camera: Camera::Auto,
             body: FigureBody::default(),
-            width: 1280,
+            width: style::WIDTH,
             figure_height: 220,
             rows: 5,
         }
@@ -53,6 +54,8 @@ const PAD: f64 = 14.0;
 const TOP: f64 = 34.0;
 const LABELS: f64 = 28.0;
 const LEAST: f64 = 150.0;
+/// Space behind the sign of a genga, in px.
+const SIGN: f64 = 11.0;
 /// Share of paper in the oldest drawing of a panel, and in the youngest before the key that it leads to.
 const FAINT: (f64, f64) = (0.78, 0.5);
 
@@ -103,7 +106,7 @@ impl OnionSkin {
         let page = |(at, rows): (usize, &[&[Panel<'_>]])| {
             let facts = page_head::facts(sheet, layer);
             let title = "Onion skin オニオンスキン";
-            let head = Head { title, cut, facts, page: (at + 1, pages) };
+            let head = Head { title, cut, facts, legend: &SIDES, page: (at + 1, pages) };
             let drawing = Page { stage: &stage, poses: &poses, joints, high: high * scale, room };
             drawing.draw(rows, &head)
         };
@@ -136,7 +139,22 @@ impl<'a> Panel<'a> {
     }
 
     fn width(&self, scale: f64) -> f64 {
-        (self.bounds.width() * scale + 2.0 * PAD).max(LEAST)
+        let signs: f64 = self.ends().iter().map(|cell| 2.0 * reach(cell) + SIGN).sum();
+        let words = signs + style::text_width(&self.koma(), style::SMALL) + 24.0;
+        (self.bounds.width() * scale + 2.0 * PAD).max(words).max(LEAST)
+    }
+
+    /// Returns the two genga; of a panel with only one drawing, that.
+    fn ends(&self) -> Vec<&ShownDrawing<'a>> {
+        let ends = self.way.first().into_iter().chain(self.way[1..].last());
+        ends.collect()
+    }
+
+    /// Returns the koma of the two genga, in words.
+    fn koma(&self) -> String {
+        let koma: Vec<String> =
+            self.ends().iter().map(|cell| (cell.koma + 1).to_string()).collect();
+        format!("koma {}", koma.join("–"))
     }
 }
 
@@ -154,6 +172,11 @@ fn rows<'a, 'b>(panels: &'b [Panel<'a>], scale: f64, room: f64) -> Vec<&'b [Pane
     }
     rows.push(&panels[begin..]);
     rows
+}
+
+/// Returns half the width of the sign of a genga, in px.
+fn reach(cell: &ShownDrawing<'_>) -> f64 {
+    cell.genga.map_or(style::BADGE, style::badge_reach)
 }
 
 /// Data that the panels of a page share.
@@ -202,7 +225,7 @@ impl Page<'_> {
             canvas.figure(&drawn, inks(at, last));
         }
         self.arc(canvas, panel.way, &stage);
-        self.words(canvas, panel.way, (x, y), size);
+        words(canvas, panel, (x, y), size);
     }
 
     /// Draws the path of the joint that travels furthest, with a dot for each drawing.
@@ -224,43 +247,30 @@ impl Page<'_> {
             canvas.spot(*point, radius, style::GENGA);
         }
     }
+}
 
-    /// Writes the two genga, their koma, and the number of drawings between them.
-    fn words(
-        &self,
-        canvas: &mut Canvas,
-        way: &[ShownDrawing<'_>],
-        (x, y): Point,
-        (wide, high): (f64, f64),
-    ) {
-        let (Some(from), Some(to)) = (way.first(), way.last()) else {
-            return;
-        };
-        let mut at = x + 18.0;
-        let ends = if way.len() > 1 { vec![from, to] } else { vec![from] };
-        for (place, cell) in ends.into_iter().enumerate() {
-            if place > 0 {
-                canvas.line((at - 17.0, y + 19.0), (at - 11.0, y + 19.0), style::FAINT, 1.25);
-            }
-            let color = style::of_role(cell.drawing.role);
-            canvas.badge(
-                (at, y + 19.0),
-                cell.genga.unwrap_or(cell.number()),
-                color,
-                cell.is_pinned(),
-            );
-            at += 28.0;
+/// Writes the two genga, their koma, and the number of drawings between them.
+fn words(canvas: &mut Canvas, panel: &Panel<'_>, (x, y): Point, (wide, high): (f64, f64)) {
+    let mut left = x + 9.0;
+    for (place, cell) in panel.ends().into_iter().enumerate() {
+        if place > 0 {
+            canvas.line((left - 9.0, y + 19.0), (left - 2.0, y + 19.0), style::FAINT, 1.25);
         }
-        let look = Type::new(style::SMALL).color(style::FAINT).align(Align::Right);
-        let koma = format!("koma {}–{}", from.koma + 1, to.koma + 1);
-        canvas.text(&koma, (x + wide - 10.0, y + 23.0), look);
-        let between = match way.len().saturating_sub(2) {
-            0 => "no inbetween 中割なし".to_owned(),
-            count => format!("{count} between 中{count}枚"),
-        };
-        let look = Type::new(style::SMALL).color(style::INK).align(Align::Center);
-        canvas.text(&between, (x + 0.5 * wide, y + high - 9.0), look);
+        let (at, color) = ((left + reach(cell), y + 19.0), style::of_role(cell.drawing.role));
+        match cell.genga {
+            Some(genga) => canvas.badge(at, genga, color, cell.is_pinned()),
+            None => canvas.disc(at, 3.0, color),
+        }
+        left += 2.0 * reach(cell) + SIGN;
     }
+    let look = Type::new(style::SMALL).color(style::FAINT).align(Align::Right);
+    canvas.text(&panel.koma(), (x + wide - 10.0, y + 23.0), look);
+    let between = match panel.way.len().saturating_sub(2) {
+        0 => "no inbetween 中割なし".to_owned(),
+        count => format!("{count} between 中{count}枚"),
+    };
+    let look = Type::new(style::SMALL).color(style::INK).align(Align::Center);
+    canvas.text(&between, (x + 0.5 * wide, y + high - 9.0), look);
 }
 
 /// Returns the inks of a drawing: full colours for the key that the panel leads to, fainter ones for older

@@ -2,7 +2,7 @@
 
 use crate::canvas::{Align, Canvas, Type};
 use crate::drawings::seconds_and_koma;
-use crate::legend::{self, SIDES};
+use crate::legend::{self, Entry};
 use crate::style;
 use genga::sheet::{Layer, Sheet};
 
@@ -19,6 +19,7 @@ pub(super) struct Head<'a> {
     pub(super) cut: &'a str,
     /// Counts of the layer, in small type.
     pub(super) facts: String,
+    pub(super) legend: &'a [Entry],
     /// Number of this page, from 1, and number of pages.
     pub(super) page: (usize, usize),
 }
@@ -27,9 +28,11 @@ impl Head<'_> {
     pub(super) fn draw(&self, canvas: &mut Canvas, width: f64) {
         let right = width - style::MARGIN;
         canvas.text(self.title, (style::MARGIN, 34.0), Type::new(style::TITLE).bold());
-        let room = legend::draw(canvas, right, &SIDES) - 18.0;
-        let begin = style::MARGIN + style::text_width(self.title, style::TITLE) * 1.06 + 16.0;
-        let cut = style::fitted(self.cut, style::WORDS, room - begin);
+        let legend = right - legend::width(self.legend);
+        legend::draw(canvas, (legend, 34.0), self.legend);
+        let title = style::BOLDER * style::text_width(self.title, style::TITLE);
+        let begin = style::MARGIN + title + 16.0;
+        let cut = style::fitted(self.cut, style::WORDS, legend - 18.0 - begin);
         canvas.text(&cut, (begin, 34.0), Type::new(style::WORDS).color(style::FAINT));
         let (page, pages) = self.page;
         let mut room = right - style::MARGIN;

@@ -3,12 +3,11 @@
 mod digits;
 
 use plotters::style::RGBColor;
-#[cfg(feature = "pictures")]
-use tiny_skia::Rect;
 use tiny_skia::{
-    Color, FillRule, LineCap, LineJoin, Paint, PathBuilder, Pixmap, PremultipliedColorU8, Stroke,
-    Transform,
+    Color, FillRule, LineCap, LineJoin, Paint, PathBuilder, Pixmap, Stroke, Transform,
 };
+#[cfg(feature = "pictures")]
+use tiny_skia::{PremultipliedColorU8, Rect};
 
 use crate::canvas::Inks;
 use crate::figure::{Drawn, Shape};
@@ -72,11 +71,14 @@ impl Pixels {
     /// # Errors
     /// [`Error::Picture`] if memory runs out.
     pub(super) fn png(&self) -> Result<Vec<u8>, Error> {
-        let straight = |pixel: &PremultipliedColorU8| {
-            let pixel = pixel.demultiply();
-            [pixel.red(), pixel.green(), pixel.blue(), pixel.alpha()]
-        };
-        let colors: Vec<u8> = self.map.pixels().iter().flat_map(straight).collect();
+        let mut colors = self.map.data().to_vec();
+        for (color, pixel) in colors.chunks_exact_mut(4).zip(self.map.pixels()) {
+            // Most pixels are opaque, and their colours are as they are.
+            if !pixel.is_opaque() {
+                let pixel = pixel.demultiply();
+                color.copy_from_slice(&[pixel.red(), pixel.green(), pixel.blue(), pixel.alpha()]);
+            }
+        }
         let mut bytes = Vec::new();
         let mut encoder = png::Encoder::new(&mut bytes, self.map.width(), self.map.height());
         encoder.set_color(png::ColorType::Rgba);

@@ -7,11 +7,12 @@ use crate::canvas::{Align, Canvas, Inks, Type};
 use crate::chart::number;
 use crate::drawings::{ShownDrawing, composed, shown_drawings};
 use crate::figure::{Figure, FigureBody};
-use crate::legend::{self, SIDES};
+use crate::legend::SIDES;
 use crate::paper_point::Point;
 use crate::points::{Posing, Showing};
 use crate::stage::{Bounds, Stage, fitting, largest};
-use crate::{style, title};
+use crate::style;
+use crate::title::{self, Title};
 use genga::error::Error;
 use genga::motion::{Camera, Clip, first_round};
 use genga::sheet::{Role, Sheet, Source};
@@ -24,7 +25,7 @@ use genga::sheet::{Role, Sheet, Source};
 pub struct PoseRow {
     /// Name of the clip, below the title; default empty, not shown.
     pub clip: String,
-    /// Maximum width in px, 200 to 20000; default 1200.
+    /// Maximum width in px, 200 to 20000; default 960.
     pub width: u32,
     /// Height of the tallest figure in px, 40 to 2000; default 170.
     pub figure_height: u32,
@@ -42,7 +43,7 @@ impl Default for PoseRow {
     fn default() -> Self {
         Self {
             clip: String::new(),
-            width: 1200,
+            width: style::WIDTH,
             figure_height: 170,
             in_line: 12,
             most: 300,
@@ -53,10 +54,52 @@ impl Default for PoseRow {
 
 const HEAD: f64 = title::HIGH + 4.0;
 const GAP: f64 = 14.0;
+/// Heights below the floor of a line's labels and of the number in a circle above them, in px.
 const LABELS: f64 = 42.0;
+const NUMBER: f64 = 24.0;
 const BETWEEN_LINES: f64 = 16.0;
 /// Minimum width of a picture in px, so that its title fits.
 const NARROWEST: f64 = 380.0;
+
+/// The words below a figure.
+struct Label {
+    /// Number of the genga in a circle, and whether a person pinned it.
+    number: Option<(usize, bool)>,
+    words: String,
+    frame: String,
+    role: Role,
+}
+
+impl Label {
+    fn new(place: f64, words: String, role: Role) -> Self {
+        let frame = format!("frame {}", number((place * 10.0).round() / 10.0));
+        Self { number: None, words, frame, role }
+    }
+
+    /// Returns the width in px.
+    fn width(&self) -> f64 {
+        let words = style::BOLDER * style::text_width(&self.words, style::WORDS);
+        words.max(style::text_width(&self.frame, style::SMALL))
+    }
+
+    /// Draws the words in their role's colour below a point on the floor, and the frame below them.
+    fn draw(&self, canvas: &mut Canvas, (x, floor): Point, width: f64) {
+        let color = style::of_role(self.role);
+        let below = if let Some((number, is_pinned)) = self.number {
+            canvas.badge((x, floor + 16.0), number, color, is_pinned);
+            floor + NUMBER
+        } else {
+            floor
+        };
+        let color = if self.role == Role::Inbetween { style::FAINT } else { color };
+        let look = Type::new(style::WORDS).color(color).align(Align::Center);
+        let look = if self.role == Role::Inbetween { look } else { look.bold() };
+        let words = style::fitted(&self.words, style::BOLDER * style::WORDS, width);
+        canvas.text(&words, (x, below + 18.0), look);
+        let look = Type::new(style::SMALL).color(style::FAINT).align(Align::Center);
+        canvas.text(&self.frame, (x, below + 34.0), look);
+    }
+}
 
 impl PoseRow {
     /// Checks the settings.
@@ -88,7 +131,9 @@ impl PoseRow {
         let shown = frames.iter().take(self.most);
         let figure = Figure::new(clip, self.body);
         let poses = Posing::new(clip, figure.marks()).all(shown.map(|frame| Source::At(frame.0)));
-        self.row(clip, &figure, frames, &poses)
+        let label =
+            |(place, words, role): &(f64, String, Role)| Label::new(*place, words.clone(), *role);
+        self.row(clip, &figure, &frames.iter().map(label).collect::<Vec<_>>(), &poses)
     }
 
     /// Draws the genga and ends of a sheet as SVG, all layers combined, numbered as in the key table.
@@ -114,29 +159,30 @@ impl PoseRow {
         let composite = composed(clip, sheet)?;
         let mut kept = shown_drawings(composite.layer());
         kept.retain(|cell| cell.genga.is_some());
-        let frame = |cell: &ShownDrawing<'_>| {
-            let label = format!("{} · koma {}", cell.genga.unwrap_or_default(), cell.koma + 1);
-            (cell.drawing.source.place(), label, cell.drawing.role)
+        let label = |cell: &ShownDrawing<'_>| {
+            let (place, words) = (cell.drawing.source.place(), format!("koma {}", cell.koma + 1));
+            let number = cell.genga.map(|number| (number, cell.is_pinned()));
+            Label { number, ..Label::new(place, words, cell.drawing.role) }
         };
         let figure = Figure::new(clip, self.body);
         let mut showing = Showing::new(&composite, figure.marks());
         let shown = kept.iter().take(self.most);
         let poses: Vec<_> = shown.map(|cell| showing.points(cell.index, cell.koma)).collect();
-        self.row(clip, &figure, &kept.iter().map(frame).collect::<Vec<_>>(), &poses)
+        self.row(clip, &figure, &kept.iter().map(label).collect::<Vec<_>>(), &poses)
     }
 
-    /// Draws the row of some poses, which belong to the first of `frames`.
+    /// Draws the row of some poses, which belong to the first of `labels`.
     fn row(
         &self,
         clip: &Clip,
         figure: &Figure,
-        frames: &[(f64, String, Role)],
+        labels: &[Label],
         poses: &[Vec<DVec3>],
     ) -> Result<String, Error> {
         if poses.is_empty() {
             return Err(style::cannot("no pose to draw"));
         }
-        let (all, frames) = (frames.len(), &frames[..poses.len()]);
+        let (all, labels) = (labels.len(), &labels[..poses.len()]);
         let view = Camera::Auto.view(clip, poses);
         let floor = Bounds::new(figure, &view, poses).floor;
         let size = largest(figure, &view, poses, floor);
@@ -145,58 +191,43 @@ impl PoseRow {
         let figure = figure.clone();
         let stage = Stage { figure, view, scale, origin: (0.0, floor), at: (0.0, 0.0) };
         let high = size.1 * scale;
-        let least = (size.0 * scale + GAP).max(70.0);
+        let words = labels.iter().map(Label::width).fold(70.0 - GAP, f64::max).min(room);
+        let least = words.max(size.0 * scale) + GAP;
         let fit = ((room + GAP) / least).floor().max(1.0) as usize;
-        let in_line = fit.min(self.in_line).min(frames.len());
-        let cell = if frames.len() >= in_line.max(8) {
+        let in_line = fit.min(self.in_line).min(labels.len());
+        let cell = if labels.len() >= in_line.max(8) {
             (room + GAP) / in_line as f64
         } else {
             least + GAP
         };
-        let lines = frames.len().div_ceil(in_line);
-        let line = high + LABELS + BETWEEN_LINES + 12.0;
+        let lines = labels.len().div_ceil(in_line);
+        let numbers = if labels[0].number.is_some() { NUMBER } else { 0.0 };
+        let line = high + numbers + LABELS + BETWEEN_LINES + 12.0;
         let width = (cell * in_line as f64 + 2.0 * style::MARGIN).max(NARROWEST);
         let width = width.min(f64::from(self.width).max(NARROWEST));
         let height = HEAD + line * lines as f64 + 10.0;
         let mut canvas = Canvas::new((width, height));
-        self.head(&mut canvas, (frames.len(), all), width - style::MARGIN);
-        for (at, row) in frames.chunks(in_line).enumerate() {
+        self.head(&mut canvas, (labels.len(), all), width);
+        for (at, row) in labels.chunks(in_line).enumerate() {
             let floor = HEAD + line * at as f64 + 12.0 + high;
             let end = style::MARGIN + cell * row.len() as f64;
             canvas.line((style::MARGIN, floor), (end, floor), style::RAW, 1.25);
-            for (column, frame) in row.iter().enumerate() {
+            for (column, label) in row.iter().enumerate() {
                 let x = style::MARGIN + cell * (column as f64 + 0.5);
                 let pose = &poses[at * in_line + column];
                 canvas.figure(&stage.draw_over(pose, (x, floor)), Inks::Sides);
-                label(&mut canvas, frame, (x, floor), cell);
+                label.draw(&mut canvas, (x, floor), cell);
             }
         }
         Ok(canvas.finish())
     }
 
     /// Draws the title, the clip, how many of the figures are shown, and the legend of the sides.
-    fn head(&self, canvas: &mut Canvas, (shown, all): (usize, usize), right: f64) {
+    fn head(&self, canvas: &mut Canvas, (shown, all): (usize, usize), width: f64) {
         let first = if shown < all { format!("the first {shown} of {all}") } else { String::new() };
         let words = [self.clip.as_str(), &first];
         let words: Vec<&str> = words.into_iter().filter(|words| !words.is_empty()).collect();
-        title::draw(canvas, "Poses ポーズ", &words.join("  ·  "), right);
-        legend::draw(canvas, right, &SIDES);
+        let clips = words.join("  ·  ");
+        Title { words: "Poses ポーズ", clips: &clips, legend: &SIDES, width }.draw(canvas);
     }
-}
-
-/// Draws the label in its role's colour, and the frame below it.
-fn label(
-    canvas: &mut Canvas,
-    (place, label, role): &(f64, String, Role),
-    (x, floor): Point,
-    cell: f64,
-) {
-    let color = if *role == Role::Inbetween { style::FAINT } else { style::of_role(*role) };
-    let look = Type::new(style::WORDS).color(color).align(Align::Center);
-    let look = if *role == Role::Inbetween { look } else { look.bold() };
-    let text = style::fitted(label, style::WORDS, cell - 4.0);
-    canvas.text(&text, (x, floor + 18.0), look);
-    let frame = format!("frame {}", number((place * 10.0).round() / 10.0));
-    let look = Type::new(style::SMALL).color(style::FAINT).align(Align::Center);
-    canvas.text(&frame, (x, floor + 34.0), look);
 }

@@ -8,6 +8,8 @@
 //! The settings exist in every build.
 
 #[cfg(feature = "pictures")]
+mod ahead;
+#[cfg(feature = "pictures")]
 mod draw;
 #[cfg(feature = "pictures")]
 mod movie;

@@ -7,11 +7,13 @@ use plotters::style::RGBColor;
 use serde::{Deserialize, Serialize};
 
 use crate::canvas::{Canvas, Type};
-use crate::legend::{self, Entry, SPLIT};
+use crate::chart::robust_top;
+use crate::legend::{CUT, Entry, LEFT_OUT, SPLIT};
 use crate::paper_point::Point;
 use crate::sheet::fate::row_before;
 use crate::sheet::paper::{Band, LEFT, Paper, badges};
-use crate::{style, title};
+use crate::style;
+use crate::title::Title;
 use genga::error::Error;
 use genga::motion::SeenFrom;
 use genga::sheet::{Layer, Sheet};
@@ -22,7 +24,7 @@ use genga::sheet::{Layer, Sheet};
 pub struct SheetPlot {
     /// Name of the clip, below the title; default empty, not shown.
     pub clip: String,
-    /// Width in px, 400 to 20000; default 1200. The height follows from the sheet.
+    /// Width in px, 400 to 20000; default 960. The height follows from the sheet.
     pub width: u32,
     /// Koma on a line, 6 to 1440; default 144, the six seconds of a paper sheet. More koma make thinner bars,
     /// and the numbers of close genga are left out.
@@ -37,7 +39,7 @@ impl Default for SheetPlot {
     fn default() -> Self {
         Self {
             clip: String::new(),
-            width: 1200,
+            width: style::WIDTH,
             koma_in_line: 144,
             splits: Vec::new(),
             seen_from: SeenFrom::World,
@@ -47,6 +49,8 @@ impl Default for SheetPlot {
 
 /// Height of a line of words about a layer, in the title, in px.
 const COUNTS: f64 = 19.0;
+/// Koma for which a movement lasts that is no glitch.
+const LASTING: usize = 3;
 
 impl SheetPlot {
     /// Checks the settings.
@@ -65,7 +69,8 @@ impl SheetPlot {
     /// Draws the sheet as SVG: genga tall with their numbers, the first and the last dark, inbetweens short.
     ///
     /// `spaced` is the sheet before omission. It adds a thin row above each layer, with the drawings left
-    /// out. `ssd` has one value per koma (how far the body moved into it) and is drawn as its square root.
+    /// out. `ssd` has one value per koma (how far the body moved into it) and is drawn as its square root. A glitch is
+    /// cut at the edge of its lane, under a sign.
     ///
     /// # Errors
     /// [`Error::Setting`] as in [`SheetPlot::validate`]; [`Error::Sheet`] as in [`Sheet::check`].
@@ -79,12 +84,24 @@ impl SheetPlot {
         sheet.check()?;
         spaced.map_or(Ok(()), Sheet::check)?;
         let paper = self.paper(sheet, spaced, ssd);
-        let words = title::HIGH + 14.0 + COUNTS * sheet.layers.len() as f64;
+        let entries = self.entries(spaced.is_some(), paper.is_cut());
+        let width = f64::from(self.width);
+        let title =
+            Title {
+                words: "Timesheet タイムシート", clips: &self.clip, legend: &entries, width
+            };
+        let words = title.height() + 14.0 + COUNTS * sheet.layers.len() as f64;
         let lines = paper.koma.div_ceil(paper.in_line).max(1);
         let line = paper.line_height();
         let height = words + line * lines as f64;
-        let mut canvas = Canvas::new((f64::from(self.width), height));
-        self.head(&mut canvas, sheet, spaced.is_some());
+        let mut canvas = Canvas::new((width, height));
+        title.draw(&mut canvas);
+        for (at, layer) in sheet.layers.iter().enumerate() {
+            let base = title.height() + 17.0 + COUNTS * at as f64;
+            let counts = counts(layer, sheet.clock.koma_rate);
+            let text = style::fitted(&counts, style::WORDS, width - 2.0 * style::MARGIN);
+            canvas.text(&text, (style::MARGIN, base), Type::new(style::WORDS));
+        }
         for at in 0..lines {
             paper.line(&mut canvas, at, words + line * at as f64);
         }
@@ -115,13 +132,12 @@ impl SheetPlot {
             .collect();
         let used = bands.iter().flat_map(|band| &band.badges).filter_map(|badge| badge.lane);
         let lanes = used.max().map_or(0, |lane| lane + 1);
-        let greatest =
-            |ssd: &[f64]| ssd.iter().copied().filter(|v| v.is_finite()).fold(0.0, f64::max);
+        let roots = ssd.unwrap_or_default().iter().map(|ssd| ssd.max(0.0).sqrt());
         Paper {
             lanes,
             bands,
-            ssd,
-            greatest_ssd: ssd.map_or(0.0, greatest),
+            top: robust_top(roots.clone(), LASTING),
+            roots: ssd.is_some().then(|| roots.collect()),
             is_on_screen: !self.seen_from.is_world(),
             splits: &self.splits,
             koma,
@@ -131,22 +147,11 @@ impl SheetPlot {
         }
     }
 
-    fn head(&self, canvas: &mut Canvas, sheet: &Sheet, spaced: bool) {
-        let right = f64::from(self.width) - style::MARGIN;
-        title::draw(canvas, "Timesheet タイムシート", &self.clip, right);
-        for (at, layer) in sheet.layers.iter().enumerate() {
-            let base = title::HIGH + 17.0 + COUNTS * at as f64;
-            let width = right - style::MARGIN;
-            let counts = counts(layer, sheet.clock.koma_rate);
-            let text = style::fitted(&counts, style::WORDS, width);
-            canvas.text(&text, (style::MARGIN, base), Type::new(style::WORDS));
-        }
-        let room = if self.splits.is_empty() { 760 } else { 1080 };
-        if self.width >= room {
-            let mut entries = LEGEND[..if spaced { 6 } else { 4 }].to_vec();
-            entries.extend((!self.splits.is_empty()).then_some(SPLIT));
-            legend::draw(canvas, right, &entries);
-        }
+    fn entries(&self, has_spaced: bool, is_cut: bool) -> Vec<Entry> {
+        let mut entries = LEGEND[..if has_spaced { 6 } else { 4 }].to_vec();
+        entries.extend((!self.splits.is_empty()).then_some(SPLIT));
+        entries.extend(is_cut.then_some(CUT));
+        entries
     }
 }
 
@@ -173,8 +178,10 @@ const LEGEND: [Entry; 6] = [
     ("genga 原画", |canvas, at| bar(canvas, at, 15.0, style::GENGA)),
     ("inbetween 中割り", |canvas, at| bar(canvas, at, 9.0, style::INBETWEEN)),
     ("first, last 端", |canvas, at| bar(canvas, at, 15.0, style::END)),
-    ("hold", |canvas, (x, y)| canvas.line((x - 7.5, y), (x + 7.5, y), style::INBETWEEN, 2.5)),
-    ("left out 抜いた中割", |canvas, at| canvas.cross(at, 4.0, style::GENGA, 1.75)),
+    ("hold 止め", |canvas, (x, y)| {
+        canvas.line((x - 7.5, y), (x + 7.5, y), style::INBETWEEN, 2.5)
+    }),
+    LEFT_OUT,
     ("held over コマ撮り", |canvas, at| canvas.ring(at, 3.25, style::FAINT, 1.25)),
 ];
 

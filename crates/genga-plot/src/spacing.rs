@@ -40,7 +40,7 @@ impl Default for SpacingPlot {
 
 const LEFT: f64 = 108.0;
 const RIGHT: f64 = 44.0;
-const TOP: f64 = 58.0;
+const TOP: f64 = 70.0;
 /// Heights of the speed panel, of the frame axis below it, and of a row with its two lines, in px.
 const SPEEDS: f64 = 130.0;
 const AXIS: f64 = 34.0;
@@ -167,7 +167,7 @@ fn head(canvas: &mut Canvas, right: f64, has_wall: bool) {
     if has_wall {
         entries.push(("wall 壁", |canvas, at| canvas.triangle(at, 5.5, style::WALL)));
     }
-    legend::draw(canvas, right, &entries);
+    legend::draw(canvas, (right - legend::width(&entries), 34.0), &entries);
 }
 
 /// Draws the joint's speed over the interval with its walls, and the frames below.
@@ -201,7 +201,7 @@ fn speeds(
     }
     let look = Type::new(style::SMALL);
     let words = format!("speed 速度 ({})", speed.unit.symbol());
-    canvas.text(&words, (LEFT + 6.0, TOP + 14.0), look.bold());
+    canvas.text(&words, (LEFT, TOP - 7.0), look.bold());
     canvas.text("frame", (LEFT - 18.0, bottom + 17.0), look.align(Align::Right));
     Ok(())
 }

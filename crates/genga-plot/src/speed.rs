@@ -9,7 +9,8 @@ use serde::{Deserialize, Serialize};
 use crate::canvas::{Align, Canvas, Type};
 use crate::chart::{Axis, Plot};
 use crate::speed::panel::{Panel, Shared};
-use crate::{style, title};
+use crate::style;
+use crate::title::Title;
 use genga::error::Error;
 use genga::motion::JointId;
 use genga::signal::{Signals, Turn};
@@ -23,7 +24,7 @@ pub use curve::SpeedCurves;
 pub struct SpeedPlot {
     /// Name of the clip, below the title; default empty, not shown.
     pub clip: String,
-    /// Width in px, 400 to 20000; default 1200.
+    /// Width in px, 400 to 20000; default 960.
     pub width: u32,
     /// Height in px, 300 to 20000; default 900. Many panels in a low picture are illegible.
     pub height: u32,
@@ -39,7 +40,7 @@ impl Default for SpeedPlot {
     fn default() -> Self {
         Self {
             clip: String::new(),
-            width: 1200,
+            width: style::WIDTH,
             height: 900,
             joints: 4,
             curves: SpeedCurves::Both,
@@ -49,9 +50,12 @@ impl Default for SpeedPlot {
 }
 
 const LEFT: f64 = 64.0;
-const TOP: f64 = title::HIGH + 14.0;
+/// Space between the head and the first numbers, in px.
+const ABOVE: f64 = 14.0;
 const BOTTOM: f64 = 58.0;
-const GAP: f64 = 14.0;
+/// Height of the line above each panel with the joint's name, in px.
+const NAME: f64 = 20.0;
+const GAP: f64 = 10.0;
 /// Maximum number of lanes for the numbers of the layer's keys.
 const LANES: usize = 3;
 
@@ -75,8 +79,9 @@ impl SpeedPlot {
     /// `order` lists the joints to show, the most important first.
     ///
     /// Values are written in the unit for people (°/s). If several frames share a px, their least and
-    /// greatest value are drawn. The filtered curve is never cut. Spikes of the raw curve beyond 1.6 times
-    /// the filtered range are cut at the panel's edge, and the panel says how far they go.
+    /// greatest value are drawn. A glitch of the filtered curve, beyond twice what the curve reaches for a fiftieth
+    /// of the time, is cut at the panel's edge under a sign. So are spikes of the raw curve beyond 1.6 times the
+    /// filtered range, without a sign. The words over the panel say how far both go.
     ///
     /// # Errors
     /// [`Error::Setting`] as in [`SpeedPlot::validate`]; [`Error::Picture`] if the tables do not belong
@@ -103,26 +108,31 @@ impl SpeedPlot {
             px.filter(|x| (LEFT..=right).contains(x)).collect()
         };
         let (keys, splits) = (px(keys), px(&self.splits));
-        let lanes = style::lanes(&keys, 2.0 * style::BADGE + 1.0, LANES);
+        let marks = keys.iter().enumerate().map(|(at, x)| (*x, style::badge_reach(at + 1) + 0.5));
+        let lanes = style::lanes(marks, LANES);
         let used = lanes.iter().flatten().max().map_or(0.0, |lane| *lane as f64 + 1.0);
-        let top = TOP + 2.0 * style::BADGE * used;
-        let bottom = height - BOTTOM;
-        let step = (bottom - top + GAP) / shown.len() as f64;
         let shared = Shared { time, right, keys, splits, speed, filtered, curves: self.curves };
         let turns_shown: Vec<&Turn> = shown.iter().flat_map(|joint| &turns[joint.0]).collect();
-        let has = (!shared.keys.is_empty(), !shared.splits.is_empty());
+        let has = legend::Has {
+            genga: !shared.keys.is_empty(),
+            splits: !shared.splits.is_empty(),
+            cuts: shown.iter().any(|joint| shared.is_cut(*joint)),
+        };
         let entries = legend::entries(self.curves, &turns_shown, has);
+        let title = Title { words: "Speed 速度", clips: &self.clip, legend: &entries, width };
+        let top = title.height() + ABOVE + 2.0 * style::BADGE * used;
+        let bottom = height - BOTTOM;
+        let step = (bottom - top + GAP) / shown.len() as f64;
         let panels = shown.iter().enumerate().map(|(row, &joint)| Panel {
             name: names[joint.0],
             joint,
             turns: &turns[joint.0],
-            top: top + step * row as f64,
+            top: top + step * row as f64 + NAME,
             bottom: top + step * (row + 1) as f64 - GAP,
             is_last: row + 1 == shown.len(),
         });
         let mut canvas = Canvas::new((width, height));
-        title::draw(&mut canvas, "Speed 速度", &self.clip, right);
-        crate::legend::draw(&mut canvas, right, &entries);
+        title.draw(&mut canvas);
         for panel in panels {
             panel.draw(&mut canvas, &shared)?;
         }
@@ -185,7 +195,8 @@ fn numbers(canvas: &mut Canvas, keys: &[f64], lanes: &[Option<usize>], top: f64)
     for (at, (&x, lane)) in keys.iter().zip(lanes).enumerate() {
         let Some(lane) = *lane else { continue };
         let y = top - style::BADGE - 3.0 - 2.0 * style::BADGE * lane as f64;
-        canvas.line((x, y + style::BADGE), (x, top), style::GENGA_LINE, 1.0);
+        // The first panel's name is left free.
+        canvas.line((x, y + style::BADGE), (x, top + 2.0), style::GENGA_LINE, 1.0);
         canvas.badge((x, y), at + 1, style::GENGA, false);
     }
 }

@@ -7,10 +7,11 @@ use serde::{Deserialize, Serialize};
 use crate::canvas::{Align, Canvas, Type};
 use crate::chart::{Axis, Plot, bar, number};
 use crate::drawings::shown;
-use crate::legend::{self, Entry};
+use crate::legend::{Entry, LEFT_OUT};
 use crate::paper_point::Point;
 use crate::sheet::fate::{Fate, fates};
 use crate::style;
+use crate::title::Title;
 use genga::error::Error;
 use genga::motion::{Clip, Screen, SeenFrom};
 use genga::sheet::{Drawing, Exposure, Layer, Sheet};
@@ -22,7 +23,7 @@ use genga::timing::Stills;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct SsdPlot {
-    /// Width in px, 400 to 20000; default 1200. A long clip has thin bars.
+    /// Width in px, 400 to 20000; default 960. A long clip has thin bars.
     pub width: u32,
     /// Height in px, 300 to 20000; default 480.
     pub height: u32,
@@ -32,12 +33,13 @@ pub struct SsdPlot {
 
 impl Default for SsdPlot {
     fn default() -> Self {
-        Self { width: 1200, height: 480, seen_from: SeenFrom::World }
+        Self { width: style::WIDTH, height: 480, seen_from: SeenFrom::World }
     }
 }
 
 const LEFT: f64 = 76.0;
-const TOP: f64 = 90.0;
+/// Space between the head and the charts, for the name of the first, in px.
+const ABOVE: f64 = 30.0;
 /// Heights of the signs under the source and of the strokes under the result, in px.
 const SIGNS: f64 = 48.0;
 const STROKES: f64 = 14.0;
@@ -47,7 +49,7 @@ const BETWEEN: f64 = 20.0;
 const OWN: RGBColor = style::WALL;
 
 const LEGEND: [Entry; 4] = [
-    ("left out 抜いた中割", |canvas, at| canvas.cross(at, 4.0, style::GENGA, 1.75)),
+    LEFT_OUT,
     ("held コマ撮り", |canvas, at| canvas.ring(at, 3.25, style::FAINT, 1.25)),
     ("a koma longer", |canvas, at| plus(canvas, at, 3.5)),
     ("own drawing", |canvas, (x, y)| canvas.rect((x - 2.0, y - 6.0), (x + 2.0, y + 6.0), OWN)),
@@ -108,6 +110,15 @@ struct Paper<'a> {
     charts: [Plot; 2],
 }
 
+/// Returns the title.
+fn title(seen_from: SeenFrom) -> &'static str {
+    if seen_from.is_world() {
+        "Movement into each koma 動きの大きさ"
+    } else {
+        "Movement on screen into each koma 画面での動きの大きさ"
+    }
+}
+
 impl SsdPlot {
     /// Checks the settings.
     ///
@@ -136,9 +147,12 @@ impl SsdPlot {
         let screen = Screen::new(self.seen_from, clip);
         let (source, result) =
             (Moves::new(clip, before, &screen), Moves::new(clip, after, &screen));
+        let words = title(self.seen_from);
+        let top = Title { words, clips: "", legend: &LEGEND, width }.height() + ABOVE;
+        let most = source.largest().max(result.largest());
         let paper = Paper {
             seen_from: self.seen_from,
-            charts: charts((width, height), (koma, second), source.largest().max(result.largest())),
+            charts: charts((width, height), top, (koma, second), most),
             source,
             result,
             fates: fates(before, after),
@@ -154,12 +168,17 @@ impl SsdPlot {
 }
 
 /// Builds both charts, one over the other, on one scale. Lines mark the seconds and round roots of SSD.
-fn charts((width, height): (f64, f64), (koma, second): (usize, usize), most: f64) -> [Plot; 2] {
-    let high = 0.5 * (height - TOP - SIGNS - BETWEEN - STROKES - BOTTOM);
+fn charts(
+    (width, height): (f64, f64),
+    top: f64,
+    (koma, second): (usize, usize),
+    most: f64,
+) -> [Plot; 2] {
+    let high = 0.5 * (height - top - SIGNS - BETWEEN - STROKES - BOTTOM);
     let seconds = (0..=koma).step_by(second).map(|koma| (koma as f64, String::new()));
     let x = Axis::labelled((0.0, koma as f64), seconds.collect());
     let y = Axis::round((0.0, most.sqrt()), high / 30.0).written(|root| number(root * root));
-    [TOP, TOP + high + SIGNS + BETWEEN].map(|top| Plot {
+    [top, top + high + SIGNS + BETWEEN].map(|top| Plot {
         from: (LEFT, top),
         to: (width - style::MARGIN, top + high),
         x: x.clone(),
@@ -188,14 +207,10 @@ impl Paper<'_> {
 
     /// Draws the title, the facts about omission in numbers, and the legend.
     fn head(&self, canvas: &mut Canvas) {
-        let title = Type::new(style::TITLE).bold();
-        let (words, seen) = if self.seen_from.is_world() {
-            ("Movement into each koma 動きの大きさ", String::new())
-        } else {
-            let seen = format!("  ·  seen from 見る位置 {}", self.seen_from);
-            ("Movement on screen into each koma 画面での動きの大きさ", seen)
+        let seen = match self.seen_from.is_world() {
+            true => String::new(),
+            false => format!("  ·  seen from 見る位置 {}", self.seen_from),
         };
-        canvas.text(words, (style::MARGIN, 34.0), title);
         let count = |fate| self.fates.iter().filter(|of_drawing| **of_drawing == fate).count();
         let (left_out, held) = (count(Fate::LeftOut), count(Fate::Held));
         let (was, is) = (self.source.largest(), self.result.largest());
@@ -205,11 +220,8 @@ impl Paper<'_> {
              largest SSD {was:.0} → {is:.0}{times}  ·  bars are √SSD high{seen}",
             self.koma
         );
-        let facts = style::fitted(&facts, style::WORDS, self.right() - style::MARGIN);
-        canvas.text(&facts, (style::MARGIN, 56.0), Type::new(style::WORDS).color(style::FAINT));
-        if self.right() >= 736.0 {
-            legend::draw(canvas, self.right(), &LEGEND);
-        }
+        let width = self.right() + style::MARGIN;
+        Title { words: title(self.seen_from), clips: &facts, legend: &LEGEND, width }.draw(canvas);
     }
 
     /// Builds a bar as high as the root of an SSD, with a small gap between koma.
@@ -268,17 +280,21 @@ impl Paper<'_> {
         self.after.drawings.iter().find(same).map_or(0, |same| same.why.lengthened)
     }
 
-    /// Draws a stroke under each drawing of the result, and writes how many were left out before it.
+    /// Draws a stroke under each drawing of the result, and writes how many were left out before it, where there is
+    /// room: every one of them has a sign above.
     fn strokes(&self, canvas: &mut Canvas) {
         let half = (0.25 * self.slot).clamp(0.5, 2.0);
+        let look = Type::new(style::SMALL).bold().color(style::GENGA);
+        let mut free = 0.0;
         for (koma, exposure) in self.after.timed() {
             let (x, floor) = self.charts[1].at(koma as f64 + 0.5, 0.0);
             canvas.rect((x - half, floor + 5.0), (x + half, floor + STROKES), OWN);
             let omitted = self.omitted_before(exposure);
-            if omitted > 0 {
-                let (x, top) = self.charts[1].at((koma + 1) as f64, self.result.ssd[koma].sqrt());
-                let look = Type::new(style::SMALL).bold().color(style::GENGA);
-                canvas.text(&format!("抜いた中割 {omitted}"), (x + 5.0, top + 10.0), look);
+            let (x, top) = self.charts[1].at((koma + 1) as f64, self.result.ssd[koma].sqrt());
+            if omitted > 0 && x > free {
+                let words = format!("×{omitted}");
+                canvas.text(&words, (x + 5.0, top + 10.0), look);
+                free = x + style::BOLDER * style::text_width(&words, style::SMALL);
             }
         }
     }

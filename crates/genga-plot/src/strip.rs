@@ -8,6 +8,7 @@ use crate::drawings::{
     ShownDrawing, beginning, composed, drawn_poses, seconds_and_koma, shown_as, sliding_poses,
 };
 use crate::figure::{Figure, FigureBody};
+use crate::legend::{LEFT_OUT, SIDES};
 use crate::page_head::{self, Head};
 use crate::paper_point::Point;
 use crate::points::Posing;
@@ -30,7 +31,7 @@ pub struct Strip {
     /// How figures are drawn; default mannequin. Set by `figures.body`, for all pictures.
     #[serde(skip)]
     pub body: FigureBody,
-    /// Width in px, 600 to 20000; default 1280.
+    /// Width in px, 600 to 20000; default 960.
     pub width: u32,
     /// Height of the tallest figure in px, 40 to 2000; default 120.
     pub figure_height: u32,
@@ -48,7 +49,7 @@ impl Default for Strip {
         Self {
             camera: Camera::Auto,
             body: FigureBody::default(),
-            width: 1280,
+            width: style::WIDTH,
             figure_height: 120,
             in_line: 12,
             rows: 6,
@@ -131,10 +132,13 @@ impl Strip {
             high: f64::from(self.figure_height),
         };
         let pages = lines.div_ceil(self.rows);
+        let leaves_out = drawing.cells.iter().any(|cell| cell.drawing.why.omitted_before > 0);
         let page = |at: usize| {
             let facts = page_head::facts(sheet, &named);
             let title = "Source and result 素材と結果";
-            let head = Head { title, cut, facts, page: (at + 1, pages) };
+            let legend = [SIDES[0], SIDES[1], LEFT_OUT];
+            let legend = if leaves_out { &legend[..] } else { &SIDES[..] };
+            let head = Head { title, cut, facts, legend, page: (at + 1, pages) };
             let lines = at * self.rows..((at + 1) * self.rows).min(lines);
             drawing.page(lines, f64::from(self.width), &head)
         };
@@ -281,7 +285,9 @@ impl Lines<'_> {
                 None => canvas.disc(label, 3.0, color),
             }
             let look = Type::new(style::SMALL).color(style::FAINT);
-            canvas.text(&cell.number().to_string(), (label.0 + 12.0, label.1 + 4.0), look);
+            let reach = cell.genga.map_or(style::BADGE, style::badge_reach);
+            let beside = (label.0 + reach + 4.0, label.1 + 4.0);
+            canvas.text(&cell.number().to_string(), beside, look);
             self.gap(canvas, cell, floor);
         }
         if cell.held > 1 {
@@ -309,6 +315,6 @@ impl Lines<'_> {
         let top = floor - self.high + 8.0;
         canvas.dashes((x, top), (x, floor + 24.0), style::GENGA, 1.5);
         let look = Type::new(style::SMALL).bold().color(style::GENGA).align(Align::Center);
-        canvas.text(&format!("抜いた中割 {omitted}"), (x, top - 6.0), look);
+        canvas.text(&format!("×{omitted}"), (x, top - 6.0), look);
     }
 }

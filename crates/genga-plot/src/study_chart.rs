@@ -11,7 +11,8 @@ use crate::chart::{self, Plot, curve, range_with_zero};
 use crate::study_chart::legend::{Behind, Legend};
 use crate::study_chart::lines::Places;
 use crate::study_chart::paper::Mark;
-use crate::{style, title};
+use crate::style;
+use crate::title::Title;
 use genga::error::Error;
 use genga_lab::study::{Axis, Grid, Measure, Spread, spreads};
 
@@ -96,7 +97,8 @@ impl StudyPlot {
         let mut canvas = Canvas::new((f64::from(self.width), f64::from(self.height)));
         let (title, value) =
             (headline(self.show, self.per_second), unit(self.show, self.per_second));
-        title::draw(&mut canvas, &title, &named(clips), f64::from(self.width) - style::MARGIN);
+        let width = f64::from(self.width);
+        Title { words: &title, clips: &named(clips), legend: &[], width }.draw(&mut canvas);
         let middle = (style::MARGIN + 8.0, 0.5 * (plot.from.1 + plot.to.1));
         canvas.text_upwards(&format!("{title} ({value})"), middle, Type::new(style::WORDS));
         behind.veils(&mut canvas, &plot, &legend.looks);

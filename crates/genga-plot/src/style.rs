@@ -39,16 +39,27 @@ pub const PAPER: RGBColor = RGBColor(255, 255, 255);
 /// Fonts, best first.
 pub(super) const FONTS: &str = "\"Noto Sans CJK JP\", \"Hiragino Sans\", \"Yu Gothic\", sans-serif";
 
+/// Width of a picture in px, unless a setting asks for another. In a print 180 mm wide, the smallest letters are 6 points.
+pub(super) const WIDTH: u32 = 960;
+
 /// Font size of a title, in px.
 pub(super) const TITLE: f64 = 17.0;
 /// Font size of words, in px.
 pub(super) const WORDS: f64 = 13.0;
 /// Font size of numbers on axes, in px.
-pub(super) const SMALL: f64 = 11.0;
+pub(super) const SMALL: f64 = 11.5;
 /// White at the edges of a picture, in px.
 pub(super) const MARGIN: f64 = 24.0;
 /// Radius of the circle round a number, in px.
-pub(super) const BADGE: f64 = 8.5;
+pub(super) const BADGE: f64 = 9.5;
+
+/// Returns half the width of the circle round a number, which is longer than high for more than two digits.
+pub(super) fn badge_reach(number: usize) -> f64 {
+    BADGE.max(0.5 * text_width(&number.to_string(), BOLDER * SMALL) + 4.5)
+}
+
+/// Width of bold letters relative to that of plain ones.
+pub(super) const BOLDER: f64 = 1.06;
 
 /// Returns the colour of a drawing by its role.
 pub(super) fn of_role(role: Role) -> RGBColor {
@@ -103,16 +114,19 @@ pub(super) fn lines(reasons: &[String], size: f64, width: f64) -> Vec<String> {
     lines
 }
 
-/// Puts marks of a width at places from left to right, each into the first lane with room; `None` if all
+/// Puts marks, each a place and half a width, from left to right into the first lane with room; `None` if all
 /// lanes are full.
-pub(super) fn lanes(places: &[f64], width: f64, lanes: usize) -> Vec<Option<usize>> {
+pub(super) fn lanes(
+    marks: impl IntoIterator<Item = (f64, f64)>,
+    lanes: usize,
+) -> Vec<Option<usize>> {
     let mut ends = vec![f64::NEG_INFINITY; lanes];
-    let mut free = |place: f64| {
-        let lane = ends.iter().position(|end| place - 0.5 * width >= *end)?;
-        ends[lane] = place + 0.5 * width;
+    let mut free = |(place, half): (f64, f64)| {
+        let lane = ends.iter().position(|end| place - half >= *end)?;
+        ends[lane] = place + half;
         Some(lane)
     };
-    places.iter().map(|place| free(*place)).collect()
+    marks.into_iter().map(&mut free).collect()
 }
 
 /// Refuses a picture size that cannot be drawn or looked at.

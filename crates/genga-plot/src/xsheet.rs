@@ -128,7 +128,7 @@ impl HoldLine {
 
 impl XSheet {
     /// Draws the pages as SVG, each of 1000 × 1440 px and with at most eight layers. The pages of the first
-    /// eight layers come first, then those of the next eight, then the gauges. An empty sheet has one page. The rounds of a
+    /// eight layers come first, then those of the next eight, then the gauges, all numbered as one series. An empty sheet has one page. The rounds of a
     /// loop after the first are written as a repeat (リピート).
     ///
     /// # Errors
@@ -148,12 +148,14 @@ impl XSheet {
             .zip(&gauges)
             .map(|(layer, gauges)| Leaf::new(layer, gauges, sheet.blank.before, repeat))
             .collect();
-        let mut pages = Vec::new();
-        for page in Page::all(self, (cut, &slate), sheet, &leaves) {
-            pages.push(page::draw(&page));
-        }
-        if self.gauges {
-            pages.extend(gauge_page::draw(self, (cut, &slate), clip, sheet, &leaves));
+        let gauges = if self.gauges { gauge_page::entries(&leaves) } else { Vec::new() };
+        let mut koma = Page::all(self, (cut, &slate), sheet, &leaves);
+        let of = koma.len() + gauge_page::count(&gauges);
+        koma.iter_mut().for_each(|page| page.of = of);
+        let mut pages: Vec<String> = koma.iter().map(page::draw).collect();
+        if let Some(last) = koma.last() {
+            let next = Page { number: last.number + 1, ..*last };
+            pages.extend(gauge_page::draw(&next, clip, &gauges));
         }
         Ok(pages)
     }

@@ -29,7 +29,7 @@ const last = take.koma - 1;
 
 async function shows(koma, what, drawing = cellOf(koma)[0]) {
   assert.equal(await page.textContent("#koma"), `${koma + 1} / ${take.koma}`, `${what}: the koma`);
-  assert.equal(await page.textContent("#drawing"), `${take.column}${drawing + 1}`, `${what}: the drawing`);
+  assert.equal(await page.textContent("#drawing"), `${take.column}${take.drawings[drawing].number}`, `${what}: the drawing`);
   assert.equal(await page.inputValue("#scrub"), String(koma + 1), `${what}: the slider`);
   const pressed = take.drawings[drawing].genga;
   const role = await page.textContent("#role");
@@ -93,7 +93,8 @@ assert.equal(await ink("#result canvas"), plain, "and turned back");
 await page.click("#bars", { position: { x: 1, y: 8 } });
 await shows(0, "a click on the bars");
 const column = await (await page.$("#column")).boundingBox();
-await page.click("#column", { position: { x: 40, y: 30 } });
+// Below the names of the columns, rows are 20 px high.
+await page.click("#column", { position: { x: 40, y: 18 + 30 } });
 await shows(Math.min(1, last), `a click on the second row of ${column.height} px`);
 await page.fill("#scrub", String(middle + 1));
 await press("s");
@@ -130,8 +131,51 @@ await press("j");
 await press("t");
 assert.equal(await page.getAttribute("html", "lang"), "ja");
 await page.screenshot({ path: `${folder}/flipbook-ja-dark.png` });
-await page.setViewportSize({ width: 700, height: 900 });
-await page.screenshot({ path: `${folder}/flipbook-narrow.png` });
+for (const [koma, [drawing]] of take.cells.map((cell) => [cell[1], cell])) {
+  await page.fill("#scrub", String(koma + 1));
+  assert.equal(await page.textContent("#why"), take.drawings[drawing].why_japanese, "the reason in Japanese");
+}
+const genga = take.drawings.filter((drawing) => drawing.role === "genga");
+assert.ok(genga.some((drawing) => drawing.why_japanese), "a genga has a reason");
+
+// In small windows everything is seen, nothing lies on anything else, and the figures have the room.
+for (const [width, height] of [[640, 400], [390, 844], [844, 390], [700, 900], [1280, 800]]) {
+  await page.setViewportSize({ width, height });
+  for (const key of ["j", "j"]) {
+    await press(key);
+    const language = await page.getAttribute("html", "lang");
+    const where = `${width} × ${height}, ${language}`;
+    const seen = await page.evaluate(() => {
+      const all = [...document.querySelectorAll("header > *, footer button, footer select, #bars, #scrub, aside > *, figure")];
+      const boxes = all.map((node) => [node.id || node.className || node.textContent, node.getBoundingClientRect()]);
+      return boxes.filter(([, box]) => box.width > 1).map(([name, box]) => [name, box.left, box.top, box.right, box.bottom]);
+    });
+    for (const [name, left, top, right, bottom] of seen) {
+      const inside = left >= 0 && top >= 0 && right <= width + 0.5 && bottom <= height + 0.5;
+      assert.ok(inside, `${where}: ${name} is inside: ${[left, top, right, bottom]}`);
+    }
+    for (const [at, [name, left, top, right, bottom]] of seen.entries()) {
+      const on = seen.slice(at + 1).find((other) =>
+        left < other[3] - 0.5 && other[1] < right - 0.5 && top < other[4] - 0.5 && other[2] < bottom - 0.5);
+      assert.ok(!on, `${where}: ${name} lies on ${on?.[0]}`);
+    }
+    for (const id of ["source", "result"]) {
+      const high = await page.$eval(`#${id} canvas`, (canvas) => {
+        const { width, height } = canvas;
+        const { data } = canvas.getContext("2d").getImageData(0, 0, width, height);
+        const inked = [...Array(height).keys()].filter((row) => {
+          let count = 0;
+          for (let x = 0; x < width; x++) count += data[4 * (row * width + x) + 3] > 128 ? 1 : 0;
+          // A floor goes all the way.
+          return count > 0 && count < 0.8 * width;
+        });
+        return (inked.at(-1) - inked[0]) / devicePixelRatio;
+      });
+      assert.ok(high >= 100, `${where}: the figure of ${id} is ${high} px high`);
+    }
+    await page.screenshot({ path: `${folder}/flipbook-${width}x${height}-${language}.png` });
+  }
+}
 
 const files = asked.filter((address) => !address.startsWith("file:"));
 assert.deepEqual(files, [], "no request leaves the machine");

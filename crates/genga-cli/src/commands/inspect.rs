@@ -42,7 +42,7 @@ pub(super) fn run(args: &InspectArgs, words: &Words) -> Result<(), Failure> {
     source.notes.iter().for_each(|warning| words.warn(warning));
     let name = paths::stem(&args.clip.path);
     if let Some(path) = &args.plot {
-        files::write_picture(path, &SkeletonPlot::default().draw(&name, &source.clip)?)?;
+        files::write_picture(path, &SkeletonPlot::default().draw(&name, &source.clip)?, words)?;
     }
     files::page_to_stdout(&page(&name, &source))
 }

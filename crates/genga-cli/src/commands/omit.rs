@@ -82,7 +82,7 @@ pub(super) fn run(args: &OmitArgs, words: &Words) -> Result<(), Failure> {
     }
     if let Some(path) = &args.plot {
         let plot = SsdPlot { seen_from, ..SsdPlot::default() };
-        files::write_picture(path, &plot.draw(&clip, &ones, &sheet)?)?;
+        files::write_picture(path, &plot.draw(&clip, &ones, &sheet)?, words)?;
     }
     if let Some(path) = &args.table {
         let name = paths::stem(&args.clip.path);

@@ -161,11 +161,11 @@ pub(super) fn run(args: &StudyArgs, words: &Words) -> Result<(), Failure> {
     let tolerance = args.stability.then_some(args.tolerance);
     let plateaus = tolerance.map(|koma| Plateaus::new(&grids, koma));
     if let Some(path) = &args.plot {
-        files::write_picture(path, &plot.draw(&names, &grids)?)?;
+        files::write_picture(path, &plot.draw(&names, &grids)?, words)?;
     }
     if let Some(path) = &args.heat {
         let edges = plateaus.as_ref().map(|plateaus| &plateaus.found);
-        files::write_picture(path, &heat.draw(&names, &grids, edges)?)?;
+        files::write_picture(path, &heat.draw(&names, &grids, edges)?, words)?;
     }
     if let Some(path) = &args.caption {
         let drawn = caption::Drawn {

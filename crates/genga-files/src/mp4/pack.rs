@@ -13,9 +13,9 @@ use genga_plot::{FigureBody, Preview};
 const MADE: &str = "the video";
 
 impl Mp4 {
-    /// Checks that ffmpeg is there before any work is done.
+    /// Checks before any work is done that ffmpeg is there, and says if there is no font.
     pub(crate) fn notes(&self) -> Result<Vec<Warning>, Error> {
-        ffmpeg::check(&self.ffmpeg).map(|()| Vec::new())
+        ffmpeg::check(&self.ffmpeg).map(|()| genga_plot::font_note().into_iter().collect())
     }
 
     /// Draws the pictures and encodes them.

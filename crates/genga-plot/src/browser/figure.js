@@ -69,7 +69,7 @@ class Stage {
   // Puts the box into a picture of a size, below a caption.
   fit(width, height) {
     const box = this.bounds();
-    const [pad, top] = [18, 44];
+    const [pad, top] = height < 300 ? [8, 26] : [18, 44];
     const scale = Math.min((width - 2 * pad) / (box.right - box.left), (height - top - 2 * pad) / (box.high - box.low || 1));
     this.scale = Math.min(scale, 1e6);
     this.x = width / 2 - 0.5 * (box.left + box.right) * this.scale;

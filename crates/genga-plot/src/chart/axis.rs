@@ -92,6 +92,22 @@ pub(crate) fn number(value: f64) -> String {
     format!("{}", if rounded == 0.0 { 0.0 } else { rounded })
 }
 
+/// Returns the top of a scale that a glitch does not set: the greatest of some values or, if that is more than twice
+/// the value that a fiftieth of them and at least `lasting` of them reach, a quarter above that value.
+///
+/// Values below 0 count as 0.
+pub(crate) fn robust_top(values: impl IntoIterator<Item = f64>, lasting: usize) -> f64 {
+    let finite = values.into_iter().filter(|value| value.is_finite());
+    let mut values: Vec<f64> = finite.map(|value| value.max(0.0)).collect();
+    let count = lasting.max(values.len() / 50).clamp(1, values.len().max(1));
+    if values.is_empty() {
+        return 0.0;
+    }
+    values.sort_unstable_by(|a, b| b.total_cmp(a));
+    let (greatest, reached) = (values[0], values[count - 1]);
+    if reached > 0.0 && greatest > 2.0 * reached { 1.25 * reached } else { greatest }
+}
+
 /// Returns the range of some values, 0 included; 0 to 1 if all of them are 0.
 pub(crate) fn range_with_zero(values: &[f64]) -> (f64, f64) {
     let finite = values.iter().copied().filter(|value| value.is_finite());

@@ -70,7 +70,7 @@ function draw() {
   const slides = take.sliding && !state.keys;
   drawStage("result", slides ? take.sliding[state.koma] : take.drawings[drawing].pose, state.onion ? resultSkins() : []);
   drawBars(by("bars"), take, state.koma, colors);
-  drawColumn(by("column"), take, cellOf, state.koma, colors);
+  drawColumn(by("column"), take, cellOf, state.koma, colors, [word("genga"), word("drawing")]);
   say(drawing);
 }
 
@@ -79,17 +79,16 @@ function say(index) {
   const [, begin, held] = take.cells[cellOf[state.koma]];
   const second = Math.round(take.koma_rate);
   const role = drawing.genga ? `${word(drawing.role)} ${drawing.genga}` : word(drawing.role);
-  by("drawing").textContent = `${take.column}${index + 1}`;
+  by("drawing").textContent = `${take.column}${drawing.number}`;
   by("role").textContent = role;
   document.querySelector("aside").className = drawing.role;
   by("koma").textContent = `${state.koma + 1} / ${take.koma}`;
   by("time").textContent = `${Math.floor(state.koma / second)}+${state.koma % second}`;
   by("held").textContent = `${state.koma - begin + 1} / ${held}`;
   by("frame").textContent = drawing.frame;
-  const omitted = drawing.omitted ? word("omitted")(drawing.omitted) : "";
-  by("why").textContent = state.language === "en" ? drawing.why : omitted;
+  by("why").textContent = by("why").title = state.language === "en" ? drawing.why : drawing.why_japanese;
   by("scrub").value = state.koma + 1;
-  const text = `${word("koma")} ${state.koma + 1}, ${word("drawing")} ${index + 1}, ${role}`;
+  const text = `${word("koma")} ${state.koma + 1}, ${word("drawing")} ${drawing.number}, ${role}`;
   by("scrub").setAttribute("aria-valuetext", text);
   // While it plays nobody could follow.
   if (!state.playing) by("status").textContent = text;
@@ -108,8 +107,14 @@ function label() {
     if (name === "play") button.textContent = state.playing ? "❚❚" : "▶";
   }
   by("language").textContent = word("language");
-  const shown = [...new Set(take.cells.map(([drawing]) => take.drawings[drawing]))];
-  by("facts").textContent = word("facts")(take, shown.filter((drawing) => drawing.genga).length, shown.length);
+  for (const id of ["theme", "help"]) {
+    by(id).title = word(id);
+    by(id).setAttribute("aria-label", word(id));
+  }
+  // A drawing that comes again in the next round of a loop is the same sheet of paper.
+  const shown = new Map(take.cells.map(([drawing]) => [take.drawings[drawing].number, take.drawings[drawing]]));
+  const genga = [...shown.values()].filter((drawing) => drawing.genga).length;
+  by("facts").textContent = word("facts")(take, genga, shown.size);
   by("scrub").setAttribute("aria-label", word("scrub"));
   by("column").setAttribute("aria-label", word("column"));
   for (const id of ["source", "result"]) {
@@ -258,16 +263,23 @@ by("speed").addEventListener("change", () => { state.speed = Number(by("speed").
 by("camera").addEventListener("change", () => { if (views.has(by("camera").value)) look(by("camera").value); });
 by("column").addEventListener("click", (event) => {
   const box = by("column").getBoundingClientRect();
-  goTo(firstRow(state.koma, take, box.height / ROW) + Math.floor((event.clientY - box.top) / ROW));
+  goTo(komaAt(event.clientY - box.top, state.koma, take, box.height));
 });
 by("bars").addEventListener("click", (event) => {
   const box = by("bars").getBoundingClientRect();
   goTo(Math.floor(((event.clientX - box.left) / box.width) * take.koma));
 });
 for (const canvas of document.querySelectorAll("figure canvas")) {
-  canvas.addEventListener("pointerdown", (event) => canvas.setPointerCapture(event.pointerId));
+  // Not every browser says how far a finger moved.
+  let from = 0;
+  canvas.addEventListener("pointerdown", (event) => {
+    from = event.clientX;
+    canvas.setPointerCapture(event.pointerId);
+  });
   canvas.addEventListener("pointermove", (event) => {
-    if (event.buttons) look(state.camera, state.angle + event.movementX * 0.01);
+    if (!event.buttons) return;
+    look(state.camera, state.angle + (event.clientX - from) * 0.01);
+    from = event.clientX;
   });
 }
 new ResizeObserver(draw).observe(by("stages"));

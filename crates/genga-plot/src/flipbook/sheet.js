@@ -1,5 +1,6 @@
-// The sheet: as bars under the stage, and as the column of the paper that follows.
+// The sheet: as bars under the stage, and as the columns of the paper that follow: genga in circles, drawings plain.
 const ROW = 20;
+const NAMES = 18;
 
 function roleColor(role, colors) {
   return { genga: colors.genga, end: colors.end, inbetween: colors.between }[role];
@@ -24,13 +25,23 @@ function firstRow(koma, take, rows) {
   return Math.max(0, Math.min(koma - Math.floor(rows / 2), take.koma - Math.floor(rows)));
 }
 
-function drawColumn(canvas, take, cellOf, koma, colors) {
+// The koma at a height of the column.
+function komaAt(y, koma, take, height) {
+  return firstRow(koma, take, (height - NAMES) / ROW) + Math.floor((y - NAMES) / ROW);
+}
+
+function drawColumn(canvas, take, cellOf, koma, colors, names) {
   const [ctx, width, height] = prepared(canvas);
-  const first = firstRow(koma, take, height / ROW);
-  const middle = 0.62 * width;
+  const first = firstRow(koma, take, (height - NAMES) / ROW);
+  const [action, cell] = [0.4 * width, 0.72 * width];
   ctx.textBaseline = "middle";
-  for (let at = first; at < take.koma && (at - first) * ROW < height; at++) {
-    const y = (at - first) * ROW;
+  ctx.textAlign = "center";
+  ctx.font = "11px sans-serif";
+  ctx.fillStyle = colors.faint;
+  ctx.fillText(names[0], action, 0.45 * NAMES);
+  ctx.fillText(names[1], cell, 0.45 * NAMES);
+  for (let at = first; at < take.koma && NAMES + (at - first) * ROW < height; at++) {
+    const y = NAMES + (at - first) * ROW;
     const [drawing, begin, held] = take.cells[cellOf[at]];
     if (at === koma) {
       ctx.fillStyle = colors.here;
@@ -45,31 +56,42 @@ function drawColumn(canvas, take, cellOf, koma, colors) {
     ctx.font = "11px sans-serif";
     ctx.textAlign = "right";
     ctx.fillStyle = colors.faint;
-    ctx.fillText(at + 1, 0.25 * width, y + 0.55 * ROW);
-    if (at === begin) drawMark(ctx, take.drawings[drawing], drawing + 1, [middle, y + 0.5 * ROW], colors);
-    else drawHold(ctx, [middle, y], at === begin + held - 1, colors);
+    ctx.fillText(at + 1, 0.22 * width, y + 0.55 * ROW);
+    if (at === begin) {
+      drawGenga(ctx, take.drawings[drawing], [action, y + 0.5 * ROW], colors);
+      drawNumber(ctx, take.drawings[drawing], [cell, y + 0.5 * ROW], colors);
+    } else {
+      for (const x of [action, cell]) drawHold(ctx, [x, y], at === begin + held - 1, colors);
+    }
   }
 }
 
-// As the sheet's CELL column has it: the drawing's number, in a circle if it is a key.
-function drawMark(ctx, drawing, number, [x, y], colors) {
+// As the sheet's ACTION column has it: the genga's number in a circle, or the dot of an inbetween.
+function drawGenga(ctx, drawing, [x, y], colors) {
   const color = roleColor(drawing.role, colors);
+  ctx.beginPath();
+  ctx.arc(x, y, drawing.genga ? 0.46 * ROW : 2, 0, 2 * Math.PI);
+  ctx.strokeStyle = ctx.fillStyle = drawing.genga ? color : colors.ink;
+  ctx.lineWidth = 1.25;
+  if (!drawing.genga || drawing.pinned) ctx.fill();
+  if (!drawing.genga) return;
+  ctx.stroke();
   ctx.textAlign = "center";
-  ctx.font = drawing.role === "inbetween" ? "12px sans-serif" : "bold 11px sans-serif";
-  if (drawing.role !== "inbetween") {
-    ctx.beginPath();
-    ctx.arc(x, y, 0.44 * ROW, 0, 2 * Math.PI);
-    ctx.strokeStyle = ctx.fillStyle = color;
-    ctx.lineWidth = 1.25;
-    ctx.stroke();
-    if (drawing.pinned) ctx.fill();
-  }
-  ctx.fillStyle = drawing.role === "inbetween" ? colors.ink : drawing.pinned ? colors.paper : color;
-  ctx.fillText(number, x, y + 1);
+  ctx.font = `bold ${drawing.genga > 99 ? 9 : 11}px sans-serif`;
+  ctx.fillStyle = drawing.pinned ? colors.paper : color;
+  ctx.fillText(drawing.genga, x, y + 1);
+}
+
+// As the sheet's CELL column has it: the drawing's number, and how many were left out before it.
+function drawNumber(ctx, drawing, [x, y], colors) {
+  ctx.textAlign = "center";
+  ctx.font = drawing.genga ? "bold 12px sans-serif" : "12px sans-serif";
+  ctx.fillStyle = colors.ink;
+  ctx.fillText(drawing.number, x, y + 1);
   if (drawing.omitted > 0) {
     ctx.fillStyle = colors.genga;
-    ctx.font = "10px sans-serif";
-    ctx.fillText(`×${drawing.omitted}`, x + 1.6 * ROW, y + 1);
+    ctx.font = "11px sans-serif";
+    ctx.fillText(`×${drawing.omitted}`, x + 1.4 * ROW, y + 1);
   }
 }
 

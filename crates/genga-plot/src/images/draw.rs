@@ -1,10 +1,11 @@
 //! Draws the numbered images as pixels.
 
+use glam::DVec3;
 use rayon::prelude::*;
 
 use super::NumberedImages;
 use crate::canvas::Inks;
-use crate::drawings::{composed, drawn_poses};
+use crate::drawings::composed;
 use crate::figure::{Drawn, Figure};
 use crate::paper_point::Point;
 use crate::pixels::{Digits, Pixels};
@@ -12,7 +13,7 @@ use crate::points::Showing;
 use crate::stage::{Bounds, Stage};
 use crate::style;
 use genga::error::Error;
-use genga::motion::{Clip, Composite, layer_of};
+use genga::motion::{Clip, Composite, first_round, layer_of};
 use genga::sheet::{Layer, Sheet};
 
 /// Share of the picture on each side that figures stay out of: the edge of the safe area.
@@ -48,6 +49,32 @@ impl Easel {
     }
 }
 
+/// Poses drawings on a koma that shows them. Those of a loop stand where its first round has come to: behind the seam the
+/// body is a round's way further than in the file.
+struct Placing<'a> {
+    own: Showing<'a>,
+    played: Showing<'a>,
+    /// Drawing on each koma of the first round, in the sheet and as it is played out.
+    on_screen: Vec<(usize, usize)>,
+}
+
+impl<'a> Placing<'a> {
+    fn new(own: &'a Composite<'a>, played: &'a Composite<'a>, figure: &'a Figure) -> Self {
+        let marks = figure.marks();
+        let on_screen = own.layer().koma().zip(played.layer().koma()).collect();
+        Self { own: Showing::new(own, marks), played: Showing::new(played, marks), on_screen }
+    }
+
+    /// Returns the points of a drawing on a koma.
+    fn points(&mut self, drawing: usize, koma: usize) -> Vec<DVec3> {
+        match self.on_screen.get(koma) {
+            Some(&(own, played)) if own == drawing => self.played.points(played, koma),
+            // A drawing that is never shown.
+            _ => self.own.points(drawing, koma),
+        }
+    }
+}
+
 impl NumberedImages {
     /// Draws one image per drawing and passes each with its file name to `take`, in order.
     ///
@@ -60,23 +87,20 @@ impl NumberedImages {
         sheet: &Sheet,
         mut take: impl FnMut(&str, Vec<u8>) -> Result<(), E>,
     ) -> Result<(), E> {
-        let composite = composed(clip, sheet)?;
-        let figure = Figure::new(clip, self.body);
-        let easel = self.easel(&composite, &figure)?;
-        let mut showing = Showing::new(&composite, figure.marks());
-        let name: String = composite.layer().name.chars().map(plain).collect();
-        let drawings: Vec<(usize, usize)> =
-            composite.first_koma().into_iter().enumerate().collect();
-        for some in drawings.chunks(AT_ONCE) {
-            let figure = |(at, koma): &(usize, usize)| {
-                (easel.stage.draw(&showing.points(*at, *koma)), at + 1)
-            };
-            let figures: Vec<_> = some.iter().map(figure).collect();
-            for ((at, _), picture) in some.iter().zip(easel.pictures(&figures)?) {
-                take(&format!("{name}_{:04}.png", at + 1), picture)?;
+        self.set_up(clip, sheet, |composite, easel, placing| {
+            let name: String = composite.layer().name.chars().map(plain).collect();
+            let drawings = drawings(composite);
+            for some in drawings.chunks(AT_ONCE) {
+                let figure = |(at, koma): &(usize, usize)| {
+                    (easel.stage.draw(&placing.points(*at, *koma)), at + 1)
+                };
+                let figures: Vec<_> = some.iter().map(figure).collect();
+                for ((at, _), picture) in some.iter().zip(easel.pictures(&figures)?) {
+                    take(&format!("{name}_{:04}.png", at + 1), picture)?;
+                }
             }
-        }
-        Ok(())
+            Ok(())
+        })
     }
 
     /// Draws each column alone, with only the parts of the body that its joints turn. Passes each drawing
@@ -91,31 +115,47 @@ impl NumberedImages {
         sheet: &Sheet,
         mut take: impl FnMut(usize, usize, Vec<u8>) -> Result<(), E>,
     ) -> Result<(), E> {
-        let composite = composed(clip, sheet)?;
-        let figure = Figure::new(clip, self.body);
-        let easel = self.easel(&composite, &figure)?;
-        let mut showing = Showing::new(&composite, figure.marks());
-        let on_screen: Vec<usize> = composite.layer().koma().collect();
-        let columns = layer_of(clip.skeleton(), sheet)?;
-        for (column, layer) in sheet.layers.iter().enumerate() {
-            let own = columns.iter().map(|of| *of == column).collect();
-            let stage = Stage { figure: figure.only(own), ..easel.stage.clone() };
-            for some in first_shown(layer).chunks(AT_ONCE) {
-                let figure = |(drawing, koma): &(usize, usize)| {
-                    (stage.draw(&showing.points(on_screen[*koma], *koma)), drawing + 1)
-                };
-                let figures: Vec<_> = some.iter().map(figure).collect();
-                for ((drawing, _), picture) in some.iter().zip(easel.pictures(&figures)?) {
-                    take(column, *drawing, picture)?;
+        self.set_up(clip, sheet, |composite, easel, placing| {
+            let columns = layer_of(clip.skeleton(), sheet)?;
+            let on_screen: Vec<usize> = composite.layer().koma().collect();
+            for (column, layer) in sheet.layers.iter().enumerate() {
+                let own = columns.iter().map(|of| *of == column).collect();
+                let stage = Stage { figure: easel.stage.figure.only(own), ..easel.stage.clone() };
+                for some in first_shown(layer).chunks(AT_ONCE) {
+                    let figure = |(drawing, koma): &(usize, usize)| {
+                        (stage.draw(&placing.points(on_screen[*koma], *koma)), drawing + 1)
+                    };
+                    let figures: Vec<_> = some.iter().map(figure).collect();
+                    for ((drawing, _), picture) in some.iter().zip(easel.pictures(&figures)?) {
+                        take(column, *drawing, picture)?;
+                    }
                 }
             }
-        }
-        Ok(())
+            Ok(())
+        })
     }
 
-    fn easel(&self, composite: &Composite<'_>, figure: &Figure) -> Result<Easel, Error> {
+    /// Sets up what all images share, and lets `draw` draw them.
+    fn set_up<E: From<Error>>(
+        &self,
+        clip: &Clip,
+        sheet: &Sheet,
+        draw: impl FnOnce(&Composite<'_>, &Easel, &mut Placing<'_>) -> Result<(), E>,
+    ) -> Result<(), E> {
+        let composite = composed(clip, sheet)?;
+        let (played_clip, played) = first_round(clip, sheet);
+        let played = composed(&played_clip, &played)?;
+        let figure = Figure::new(clip, self.body);
+        let mut placing = Placing::new(&composite, &played, &figure);
+        let drawings = drawings(&composite).into_iter();
+        let poses: Vec<_> = drawings.map(|(at, koma)| placing.points(at, koma)).collect();
+        let easel = self.easel(clip, &figure, &poses)?;
+        draw(&composite, &easel, &mut placing)
+    }
+
+    fn easel(&self, clip: &Clip, figure: &Figure, poses: &[Vec<DVec3>]) -> Result<Easel, Error> {
         self.validate()?;
-        let stage = self.stage(composite, figure);
+        let stage = self.stage(clip, figure, poses);
         let backdrop = self.backdrop(&stage)?;
         let digits = || Digits::new(0.03 * f64::from(self.height).max(300.0), style::FAINT);
         let number = self.marks.then(|| (self.inside(0.99 - SAFE), digits()));
@@ -127,11 +167,9 @@ impl NumberedImages {
         (share * f64::from(self.width), share * f64::from(self.height))
     }
 
-    fn stage(&self, composite: &Composite<'_>, figure: &Figure) -> Stage {
-        let clip = composite.clip();
-        let poses = drawn_poses(composite, figure.marks(), composite.layer().drawings.len());
-        let view = self.camera.view(clip, &poses);
-        let bounds = Bounds::new(figure, &view, &poses);
+    fn stage(&self, clip: &Clip, figure: &Figure, poses: &[Vec<DVec3>]) -> Stage {
+        let view = self.camera.view(clip, poses);
+        let bounds = Bounds::new(figure, &view, poses);
         let (wide, high) = self.inside(1.0 - 4.0 * SAFE);
         let (width, height) = self.inside(1.0);
         let floor = (1.0 - 2.0 * SAFE) * height;
@@ -163,6 +201,11 @@ impl NumberedImages {
             }
         }
     }
+}
+
+/// Returns all drawings, each with the first koma that shows it.
+fn drawings(composite: &Composite<'_>) -> Vec<(usize, usize)> {
+    composite.first_koma().into_iter().enumerate().collect()
 }
 
 /// Returns the drawings of a layer that are on screen, each with its first koma, in the order of time.

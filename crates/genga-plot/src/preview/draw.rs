@@ -2,10 +2,10 @@
 
 use std::io::Write;
 
-use super::Preview;
 use super::movie::Movie;
 use super::palette::Palette;
-use super::scene::Scene;
+use super::scene::{Cast, Scene};
+use super::{Preview, ahead};
 use crate::drawings::composed;
 use crate::figure::Figure;
 use crate::pixels::Pixels;
@@ -59,23 +59,18 @@ impl Preview {
         cut: &str,
         (clip, sheet): (&Clip, &Sheet),
         most: usize,
-        mut show: impl FnMut(usize, &Pixels) -> Result<(), Error>,
+        show: impl FnMut(usize, &Pixels) -> Result<(), Error>,
     ) -> Result<usize, Error> {
         // The rounds of a loop are at other places and show the same drawings.
         let named: Vec<usize> = composed(clip, sheet)?.layer().koma().take(most).collect();
         let (clip, sheet) = played_out(clip, sheet);
         let (clip, sheet) = (&*clip, &*sheet);
         let composite = composed(clip, sheet)?;
-        let layer = composite.layer();
-        let (before, shown) = (sheet.blank.before, layer.koma().collect::<Vec<_>>());
-        let koma = (before + shown.len() + sheet.blank.after).min(most);
+        let koma = (sheet.blank.before + composite.layer().length() + sheet.blank.after).min(most);
         let figure = Figure::new(clip, self.body);
-        let mut scene = Scene::new(self, cut, (&composite, &figure), sheet, koma)?;
-        for at in 0..koma {
-            let drawing =
-                at.checked_sub(before).and_then(|at| Some((*shown.get(at)?, named[at] + 1)));
-            show(at, scene.draw(at, drawing))?;
-        }
+        let scene = Scene::new(self, cut, (&composite, &figure), sheet, koma)?;
+        let cast = Cast::new((&composite, &figure), sheet, named.iter().map(|at| at + 1));
+        ahead::play(&scene, cast, show)?;
         Ok(koma)
     }
 }

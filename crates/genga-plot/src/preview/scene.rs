@@ -25,37 +25,91 @@ const BARS: (f64, f64) = (10.0, 40.0);
 /// Ratio of width to height, relative to a panel's, above which the camera follows a motion.
 const FAR: f64 = 1.6;
 
-/// The fixed parts of the picture, and the pixels of the current koma.
-pub(super) struct Scene<'a> {
-    posing: Posing<'a>,
-    showing: Showing<'a>,
-    clock: Clock,
-    layer: &'a Layer,
+/// The fixed parts of the pictures.
+pub(super) struct Scene {
     /// Stages of source and result.
     stages: [Stage; 2],
     /// Whether the camera follows the root.
     follows: bool,
     backdrop: Pixels,
-    pixels: Pixels,
     small: Digits,
     genga: Digits,
     plain: Digits,
     size: (f64, f64),
+    /// Number of koma.
+    pub(super) koma: usize,
+}
+
+/// What changes from koma to koma.
+pub(super) struct Moment {
+    /// Koma of the cut.
     koma: usize,
+    /// What is on screen; `None` on a blank koma.
+    shown: Option<Shown>,
+}
+
+/// Source and result on a koma.
+struct Shown {
+    poses: [Vec<DVec3>; 2],
+    /// Number under which the drawing is known.
+    number: usize,
+    is_kept: bool,
+}
+
+/// Poses the figures, koma by koma.
+pub(super) struct Cast<'a> {
+    posing: Posing<'a>,
+    showing: Showing<'a>,
+    clock: Clock,
+    layer: &'a Layer,
+    /// Drawing on each koma of the sheet, and the number under which it is known.
+    drawings: Vec<(usize, usize)>,
     /// Blank koma before the first drawing.
     before: usize,
 }
 
-impl<'a> Scene<'a> {
+impl<'a> Cast<'a> {
+    /// Prepares the poses; `numbers` has the number of the drawing on each koma of the sheet.
+    pub(super) fn new(
+        (composite, figure): (&'a Composite<'a>, &'a Figure),
+        sheet: &Sheet,
+        numbers: impl Iterator<Item = usize>,
+    ) -> Self {
+        let layer = composite.layer();
+        Self {
+            posing: Posing::new(composite.clip(), figure.marks()),
+            showing: Showing::new(composite, figure.marks()),
+            clock: sheet.clock,
+            layer,
+            drawings: layer.koma().zip(numbers).collect(),
+            before: sheet.blank.before,
+        }
+    }
+
+    /// Poses the figures of a koma of the cut.
+    pub(super) fn at(&mut self, koma: usize) -> Moment {
+        let own = koma.checked_sub(self.before);
+        let drawing = own.and_then(|own| Some((own, *self.drawings.get(own)?)));
+        let shown = drawing.map(|(own, (drawing, number))| {
+            let source = Source::At(self.clock.place_from_koma(own));
+            let poses = [self.posing.points(source), self.showing.points(drawing, own)];
+            Shown { poses, number, is_kept: self.layer.drawings[drawing].role.is_kept() }
+        });
+        Moment { koma, shown }
+    }
+}
+
+impl Scene {
+    /// Builds the scene of the first `koma` koma of a cut.
     pub(super) fn new(
         preview: &Preview,
         cut: &str,
-        (composite, figure): (&'a Composite<'a>, &'a Figure),
+        (composite, figure): (&Composite<'_>, &Figure),
         sheet: &Sheet,
         koma: usize,
     ) -> Result<Self, Error> {
         let size = (f64::from(preview.width), f64::from(preview.height));
-        let (clip, layer) = (composite.clip(), composite.layer());
+        let layer = composite.layer();
         let (stage, follows) = stage(preview, composite, figure, size);
         let at = |panel: f64| (size.0 * (0.25 + 0.5 * panel), size.1 - BOTTOM);
         let stages = [0.0, 1.0].map(|panel| Stage { at: at(panel), ..stage.clone() });
@@ -63,60 +117,50 @@ impl<'a> Scene<'a> {
         cells.iter_mut().for_each(|cell| cell.koma += sheet.blank.before);
         let backdrop = Pixels::from_svg(&backdrop(cut, sheet, layer, &cells, koma, size, follows))?;
         Ok(Self {
-            posing: Posing::new(clip, figure.marks()),
-            showing: Showing::new(composite, figure.marks()),
-            clock: sheet.clock,
-            layer,
             stages,
             follows,
-            pixels: backdrop.clone(),
             backdrop,
             small: Digits::new(style::WORDS, style::INK),
             genga: Digits::new(style::TITLE, style::GENGA),
             plain: Digits::new(style::TITLE, style::INBETWEEN),
             size,
             koma,
-            before: sheet.blank.before,
         })
     }
 
-    /// Draws a koma of the cut on which a drawing is shown, with its number, or none.
-    pub(super) fn draw(&mut self, koma: usize, drawing: Option<(usize, usize)>) -> &Pixels {
-        self.pixels.copy(&self.backdrop);
-        if let Some(drawing) = drawing {
-            self.drawing(koma - self.before, drawing);
+    /// Returns the picture without figures.
+    pub(super) fn backdrop(&self) -> &Pixels {
+        &self.backdrop
+    }
+
+    /// Draws a koma onto pixels of the backdrop's size.
+    pub(super) fn draw(&self, moment: &Moment, pixels: &mut Pixels) {
+        pixels.copy(&self.backdrop);
+        if let Some(Shown { poses, number, is_kept }) = &moment.shown {
+            poses.iter().enumerate().for_each(|(panel, pose)| self.figure(pixels, panel, pose));
+            let digits = if *is_kept { &self.genga } else { &self.plain };
+            digits.write(pixels, *number, (self.size.0 - PAD, 28.0));
         }
         let height = self.size.1;
-        self.small.write(&mut self.pixels, koma + 1, (PAD + 68.0, height - 10.0));
+        self.small.write(pixels, moment.koma + 1, (PAD + 68.0, height - 10.0));
         let bar = bar_width(self.size, self.koma);
-        let x = PAD + bar * (koma as f64 + 0.5);
+        let x = PAD + bar * (moment.koma as f64 + 0.5);
         let (high, up) = BARS;
         let head = (x - 1.0, height - up - 4.0);
-        self.pixels.rect(head, (2.0, high + 8.0), style::INK);
-        &self.pixels
+        pixels.rect(head, (2.0, high + 8.0), style::INK);
     }
 
-    /// Draws the figures of a koma of the sheet, and the number under which its drawing is known.
-    fn drawing(&mut self, koma: usize, (drawing, number): (usize, usize)) {
-        let source = Source::At(self.clock.place_from_koma(koma));
-        let poses = [self.posing.points(source), self.showing.points(drawing, koma)];
-        poses.iter().enumerate().for_each(|(panel, pose)| self.figure(panel, pose));
-        let is_kept = self.layer.drawings[drawing].role.is_kept();
-        let digits = if is_kept { &self.genga } else { &self.plain };
-        digits.write(&mut self.pixels, number, (self.size.0 - PAD, 28.0));
-    }
-
-    fn figure(&mut self, panel: usize, pose: &[DVec3]) {
+    fn figure(&self, pixels: &mut Pixels, panel: usize, pose: &[DVec3]) {
         let mut stage = self.stages[panel].clone();
         if self.follows {
             stage.origin.0 = stage.view.see(pose[0]).0;
-            self.ticks(&stage);
+            self.ticks(pixels, &stage);
         }
-        self.pixels.figure(&stage.draw(pose), Inks::Sides);
+        pixels.figure(&stage.draw(pose), Inks::Sides);
     }
 
     /// Draws marks on the floor, half a body's height apart. Without them the movement would not be seen.
-    fn ticks(&mut self, stage: &Stage) {
+    fn ticks(&self, pixels: &mut Pixels, stage: &Stage) {
         let step = 0.5 * stage.figure.height;
         let half = (0.25 * self.size.0 - PAD) / stage.scale;
         let (from, to) = ((stage.origin.0 - half) / step, (stage.origin.0 + half) / step);
@@ -128,7 +172,7 @@ impl<'a> Scene<'a> {
         for tick in from.ceil() as i64..=to.floor() as i64 {
             let x = stage.at.0 + (tick as f64 * step - stage.origin.0) * stage.scale;
             let floor = stage.at.1;
-            self.pixels.line((x, floor), (x - 5.0, floor + 6.0), style::INBETWEEN, 1.25);
+            pixels.line((x, floor), (x - 5.0, floor + 6.0), style::INBETWEEN, 1.25);
         }
     }
 }

@@ -39,8 +39,9 @@ pub(super) struct Band<'a> {
 /// Contents of the timesheet, and its measures in px.
 pub(super) struct Paper<'a> {
     pub(super) bands: Vec<Band<'a>>,
-    pub(super) ssd: Option<&'a [f64]>,
-    pub(super) greatest_ssd: f64,
+    /// Root of the SSD into each koma, if that lane is shown, and the greatest root that has room.
+    pub(super) roots: Option<Vec<f64>>,
+    pub(super) top: f64,
     /// Whether the SSD is measured in a camera's view.
     pub(super) is_on_screen: bool,
     /// Koma on which actions begin.
@@ -65,8 +66,8 @@ pub(super) fn badges(layer: &Layer, in_line: usize, slot: f64) -> Vec<Badge> {
     // A gap at every line's end, since numbers on different lines are no neighbours.
     let gap = 4.0 * style::BADGE;
     let place = |koma: usize| koma as f64 * slot + (koma / in_line) as f64 * gap;
-    let places: Vec<_> = badges.iter().map(|badge| place(badge.koma)).collect();
-    let lanes = style::lanes(&places, 2.0 * style::BADGE, LANES);
+    let mark = |badge: &Badge| (place(badge.koma), style::badge_reach(badge.number));
+    let lanes = style::lanes(badges.iter().map(mark).collect::<Vec<_>>(), LANES);
     for (badge, lane) in badges.iter_mut().zip(lanes) {
         badge.lane = lane;
     }
@@ -84,7 +85,7 @@ impl Paper<'_> {
     }
 
     fn ssd_height(&self) -> f64 {
-        if self.ssd.is_some() { SSD + 6.0 } else { 0.0 }
+        if self.roots.is_some() { SSD + 6.0 } else { 0.0 }
     }
 
     pub(super) fn line_height(&self) -> f64 {
@@ -109,9 +110,9 @@ impl Paper<'_> {
             canvas.dashes((x, top + SECONDS - 3.0), (x, bottom + 9.0), style::INK, 1.25);
         }
         let mut y = top + SECONDS;
-        if let Some(ssd) = self.ssd {
-            let end = ssd.len().min(begin + koma);
-            self.ssd(canvas, &ssd[begin.min(end)..end], y + SSD);
+        if let Some(roots) = &self.roots {
+            let end = roots.len().min(begin + koma);
+            self.roots(canvas, &roots[begin.min(end)..end], y + SSD);
             y += self.ssd_height();
         }
         for (at, band) in self.bands.iter().enumerate() {
@@ -164,25 +165,40 @@ impl Paper<'_> {
     }
 
     /// Draws how far the body moves into each koma, as √SSD, which is proportional to the distance.
-    fn ssd(&self, canvas: &mut Canvas, ssd: &[f64], floor: f64) {
+    fn roots(&self, canvas: &mut Canvas, roots: &[f64], floor: f64) {
         let words = Type::new(style::SMALL).align(Align::Right).color(style::FAINT);
         canvas.text("√SSD", (LEFT - 10.0, floor), words);
         if self.is_on_screen {
             canvas.text("画面", (LEFT - 10.0, floor - 13.0), words);
         }
         let mut hull = vec![(LEFT, floor)];
-        for (koma, value) in ssd.iter().enumerate() {
-            let share = if self.greatest_ssd > 0.0 && value.is_finite() {
-                (value.max(0.0) / self.greatest_ssd).sqrt()
-            } else {
-                0.0
-            };
+        for (koma, root) in roots.iter().enumerate() {
+            let is_drawn = self.top > 0.0 && root.is_finite();
+            let share = if is_drawn { (root / self.top).min(1.0) } else { 0.0 };
             let y = floor - share * SSD;
             hull.extend([(self.x(koma), y), (self.x(koma + 1), y)]);
         }
-        hull.push((self.x(ssd.len()), floor));
+        hull.push((self.x(roots.len()), floor));
         canvas.area(&hull, style::GRID);
-        canvas.line((LEFT, floor), (self.x(ssd.len()), floor), style::RAW, 1.0);
+        canvas.line((LEFT, floor), (self.x(roots.len()), floor), style::RAW, 1.0);
+        let mut koma = 0;
+        for stretch in roots.chunk_by(|a, b| self.goes_on(*a) == self.goes_on(*b)) {
+            if self.goes_on(stretch[0]) {
+                let middle = self.x(koma) + 0.5 * self.slot * stretch.len() as f64;
+                canvas.cut((middle, floor - SSD + 4.0));
+            }
+            koma += stretch.len();
+        }
+    }
+
+    /// Whether a root of SSD goes on beyond its lane.
+    fn goes_on(&self, root: f64) -> bool {
+        root.is_finite() && root > self.top
+    }
+
+    /// Whether a glitch is cut off.
+    pub(super) fn is_cut(&self) -> bool {
+        self.roots.iter().flatten().any(|root| self.goes_on(*root))
     }
 
     fn band(&self, canvas: &mut Canvas, band: &Band<'_>, (begin, koma): (usize, usize), top: f64) {

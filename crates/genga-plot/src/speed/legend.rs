@@ -3,7 +3,7 @@
 use plotters::style::RGBColor;
 
 use crate::canvas::Canvas;
-use crate::legend::{Entry, SPLIT};
+use crate::legend::{CUT, Entry, SPLIT};
 use crate::paper_point::Point;
 use crate::speed::SpeedCurves;
 use crate::speed::curve::KEPT;
@@ -22,12 +22,17 @@ const GENGA: Entry = ("genga 原画 ①", |canvas, (x, y)| {
     canvas.line((x, y - 9.0), (x, y + 9.0), style::GENGA_LINE, 1.25);
 });
 
+/// What a picture shows besides curves and turns.
+#[derive(Clone, Copy)]
+pub(super) struct Has {
+    pub(super) genga: bool,
+    pub(super) splits: bool,
+    /// Whether a filtered curve goes on beyond its panel.
+    pub(super) cuts: bool,
+}
+
 /// Returns the entries of the curves and marks that the picture shows.
-pub(super) fn entries(
-    curves: SpeedCurves,
-    turns: &[&Turn],
-    (has_genga, has_splits): (bool, bool),
-) -> Vec<Entry> {
+pub(super) fn entries(curves: SpeedCurves, turns: &[&Turn], also: Has) -> Vec<Entry> {
     let has = |kind| turns.iter().any(|turn| turn.kind == kind);
     let mut entries = match curves {
         SpeedCurves::Both => vec![RAW, FILTERED],
@@ -37,8 +42,9 @@ pub(super) fn entries(
     };
     entries.extend(has(TurnKind::Key).then_some(KEY));
     entries.extend(has(TurnKind::Wall).then_some(WALL));
-    entries.extend(has_genga.then_some(GENGA));
-    entries.extend(has_splits.then_some(SPLIT));
+    entries.extend(also.genga.then_some(GENGA));
+    entries.extend(also.splits.then_some(SPLIT));
+    entries.extend(also.cuts.then_some(CUT));
     entries
 }
 

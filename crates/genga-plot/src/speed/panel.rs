@@ -3,7 +3,7 @@
 use plotters::style::RGBColor;
 
 use crate::canvas::{Align, Canvas, Type};
-use crate::chart::{Axis, Plot, curve, number, range_with_zero};
+use crate::chart::{Axis, Plot, curve, number, range_with_zero, robust_top};
 use crate::paper_point::Point;
 use crate::speed::curve::{self, KEPT};
 use crate::speed::{LEFT, SpeedCurves};
@@ -14,6 +14,8 @@ use genga::signal::{Signals, Turn, TurnKind};
 
 /// Maximum range of a panel relative to the filtered curve's range: the raw curve has spikes beyond it.
 const OVER: f64 = 1.6;
+/// Seconds for which a value lasts that is no glitch.
+const LASTING: f64 = 0.125;
 
 /// Data that all panels share.
 pub(super) struct Shared<'a> {
@@ -82,6 +84,11 @@ impl Panel<'_> {
             Ok(())
         })?;
         self.marks(canvas, &plot, &values, shared.curves);
+        if shared.curves != SpeedCurves::Measured {
+            for (frame, value) in values.cuts() {
+                canvas.cut(plot.at(frame, value));
+            }
+        }
         self.words(canvas, &values, shared);
         Ok(())
     }
@@ -90,7 +97,7 @@ impl Panel<'_> {
         let (raw, filtered) = (shared.speed.joint(self.joint), shared.filtered.joint(self.joint));
         let kept = curve::kept(raw, self.turns, shared.speed.first);
         let people = shared.speed.unit.for_people();
-        let (whole, most) = (range_with_zero(filtered), range_with_zero(raw));
+        let (whole, most) = (shared.robust_range(self.joint), range_with_zero(raw));
         let (least, greatest) = match shared.curves {
             SpeedCurves::Both => {
                 (most.0.max(OVER * whole.0).min(whole.0), most.1.min(OVER * whole.1).max(whole.1))
@@ -122,25 +129,44 @@ impl Panel<'_> {
         }
     }
 
-    /// Writes the joint's name and, if the raw curve is cut, how far it goes.
+    /// Writes the joint's name above the panel and, if curves are cut, how far they go.
     fn words(&self, canvas: &mut Canvas, values: &Values<'_>, shared: &Shared<'_>) {
-        if let Some(beyond) = values.beyond().filter(|_| shared.curves == SpeedCurves::Both) {
-            let look = Type::new(style::SMALL).color(style::FAINT).align(Align::Right);
-            let text = format!("raw goes to {}", number(beyond.round()));
-            self.on_white(canvas, &text, shared.right - 4.0, look);
-        }
+        let shows = |curve: &str| match shared.curves {
+            SpeedCurves::Both => true,
+            SpeedCurves::Measured => false,
+            SpeedCurves::Filtered | SpeedCurves::Kept => curve == "filtered",
+        };
+        let curves = [("filtered", values.filtered), ("raw", values.raw)];
+        let goes =
+            curves.into_iter().filter(|(name, _)| shows(name)).filter_map(|(name, curve)| {
+                Some(format!("{name} goes to {}", number(values.beyond(curve)?.round())))
+            });
+        let goes = goes.collect::<Vec<_>>().join("  ·  ");
+        let base = self.top - 6.0;
+        let look = Type::new(style::SMALL).color(style::FAINT).align(Align::Right);
+        canvas.text(&goes, (shared.right, base), look);
         let title = format!("{} ({})", self.name, shared.speed.unit.symbol());
-        let title = style::fitted(&title, style::WORDS, 400.0);
-        self.on_white(canvas, &title, LEFT + 6.0, Type::new(style::WORDS).bold());
+        let room = shared.right - LEFT - style::text_width(&goes, style::SMALL) - 16.0;
+        let title = style::fitted(&title, style::BOLDER * style::WORDS, room);
+        canvas.text(&title, (LEFT, base), Type::new(style::WORDS).bold());
+    }
+}
+
+impl Shared<'_> {
+    /// Returns the range of a filtered curve without glitches, 0 included; 0 to 1 if all of it is 0.
+    fn robust_range(&self, joint: JointId) -> (f64, f64) {
+        let curve = self.filtered.joint(joint);
+        let lasting = (LASTING * self.filtered.rate.fps()).ceil() as usize;
+        let top = |sign: f64| robust_top(curve.iter().map(|value| sign * value), lasting);
+        let (low, high) = (0.0 - top(-1.0), top(1.0));
+        if low == high { (0.0, 1.0) } else { (low, high) }
     }
 
-    /// Writes words at the panel's upper edge, on white.
-    fn on_white(&self, canvas: &mut Canvas, text: &str, x: f64, look: Type) {
-        let wide = style::text_width(text, look.size) + 4.0;
-        let left = if look.align == Align::Right { x - wide } else { x - 4.0 };
-        let corner = (left + wide + 4.0, self.top + 20.0);
-        canvas.rect((left, self.top), corner, style::PAPER);
-        canvas.text(text, (x, self.top + 15.0), look);
+    /// Whether a filtered curve that is shown goes on beyond its panel.
+    pub(super) fn is_cut(&self, joint: JointId) -> bool {
+        let (whole, shown) =
+            (range_with_zero(self.filtered.joint(joint)), self.robust_range(joint));
+        self.curves != SpeedCurves::Measured && (whole.0 < shown.0 || whole.1 > shown.1)
     }
 }
 
@@ -151,12 +177,29 @@ impl Values<'_> {
         (self.first + row as f64, (value * self.people).max(low).min(high))
     }
 
-    /// Returns the greatest raw value if it has no room, otherwise the least one if that has none.
-    fn beyond(&self) -> Option<f64> {
-        let (least, most) = range_with_zero(self.raw);
+    /// Returns the greatest value of a curve if it has no room, otherwise the least one if that has none.
+    fn beyond(&self, curve: &[f64]) -> Option<f64> {
+        let (least, most) = range_with_zero(curve);
         let (least, most) = (least * self.people, most * self.people);
         let above = Some(most).filter(|most| *most > self.range.1);
         above.or(Some(least).filter(|least| *least < self.range.0))
+    }
+
+    /// Returns the middle of each stretch of frames for which the filtered curve has no room, and the edge behind which
+    /// it is.
+    fn cuts(&self) -> Vec<(f64, f64)> {
+        let edge = |value: f64| match value * self.people {
+            value if value > self.range.1 => Some(self.range.1),
+            value if value < self.range.0 => Some(self.range.0),
+            _ => None,
+        };
+        let rows: Vec<(usize, f64)> = self.filtered.iter().copied().enumerate().collect();
+        let stretches = rows.chunk_by(|a, b| edge(a.1) == edge(b.1));
+        let middle = |stretch: &[(usize, f64)]| {
+            let (first, last) = (stretch[0], stretch[stretch.len() - 1]);
+            Some((self.first + 0.5 * (first.0 + last.0) as f64, edge(first.1)?))
+        };
+        stretches.filter_map(middle).collect()
     }
 
     /// Returns the lines of the curves to show. `px` maps a frame to its x.

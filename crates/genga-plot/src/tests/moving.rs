@@ -3,7 +3,7 @@
 use gif::{ColorOutput, DecodeOptions};
 use resvg::tiny_skia::Pixmap;
 
-use super::figures::walk;
+use super::figures::{looped, walk};
 use super::*;
 
 fn images(settings: &NumberedImages, clip: &Clip, sheet: &Sheet) -> Vec<(String, Vec<u8>)> {
@@ -78,6 +78,37 @@ fn all_images_have_one_frame_so_that_the_way_gone_is_kept() {
         assert!((way - px * frames).abs() <= 2.0, "{edges:?}");
     }
     assert!(edges.iter().all(|(_, low)| *low == edges[0].1), "one floor: {edges:?}");
+}
+
+#[test]
+fn images_of_a_loop_stand_where_its_first_round_has_come_to_behind_the_seam_too() {
+    let small = NumberedImages {
+        camera: Camera::Side,
+        width: 640,
+        height: 360,
+        ..NumberedImages::default()
+    };
+    let ways = |pngs: &[Vec<u8>]| -> Vec<f64> {
+        let lefts: Vec<f64> = pngs.iter().map(|png| edges(png).0 as f64).collect();
+        lefts.windows(2).map(|pair| pair[1] - pair[0]).collect()
+    };
+    for rounds in [1, 3] {
+        let (clip, sheet) = looped(rounds);
+        let whole: Vec<_> =
+            images(&small, &clip, &sheet).into_iter().map(|image| image.1).collect();
+        let mut columns = vec![];
+        let take = |_, _, png| -> Result<(), Error> {
+            columns.push(png);
+            Ok(())
+        };
+        small.draw_columns(&clip, &sheet, take).unwrap();
+        for pngs in [whole, columns] {
+            assert_eq!(pngs.len(), 4, "a picture a drawing");
+            let ways = ways(&pngs);
+            assert!(ways[0] > 10.0, "{ways:?}");
+            assert!(ways.iter().all(|way| (way - ways[0]).abs() <= 2.0), "{ways:?}");
+        }
+    }
 }
 
 #[test]

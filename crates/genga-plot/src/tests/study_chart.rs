@@ -263,3 +263,24 @@ fn a_map_that_nobody_could_look_at_is_refused_before_the_work() {
         assert!(said.unwrap_err().to_string().contains("take larger steps"));
     }
 }
+
+#[test]
+fn the_letters_of_studies_can_be_read_in_print() {
+    let axis = |name: &str, count: usize| {
+        let values: Vec<String> = (1..=count).map(|at| (5 * at).to_string()).collect();
+        format!("{name}={}", values.join(","))
+    };
+    for (columns, rows) in [(2, 2), (12, 6), (60, 20), (300, 3)] {
+        let (x, y) = (axis("filter.width", columns), axis("turns.persistence", rows));
+        let counts: Vec<f64> = (0..columns * rows).map(|at| 40.0 + (at * 37 % 90) as f64).collect();
+        let grid = grid(&x, Some(&y), &counts);
+        for grids in [vec![grid.clone()], vec![grid; 5]] {
+            let name = format!("{columns} × {rows}, {} clips", grids.len());
+            print::check(
+                &format!("study {name}"),
+                &curves_of(&StudyPlot::default(), &grids).unwrap(),
+            );
+            print::check(&format!("map {name}"), &map_of(&grids, None).unwrap());
+        }
+    }
+}

@@ -36,7 +36,8 @@ pub(super) fn action(
     carried_over(canvas, leaf, half, place, &|drawing| leaf.genga[drawing]);
 }
 
-/// Fills the CELL column (動画): every drawing's number, circled for keys, and END under the highest.
+/// Fills the CELL column (動画): every drawing's number, bold for keys, and END under the highest. A circle holds the
+/// number of a genga, so that there is none here.
 pub(super) fn cell(
     canvas: &mut Canvas,
     page: &Page<'_>,
@@ -45,11 +46,11 @@ pub(super) fn cell(
     place: Place,
 ) {
     column(canvas, page, leaf, half, place, &|canvas, shown, center| {
-        let number = shown.drawing + 1;
-        match leaf.genga[shown.drawing] {
-            Some(_) => key(canvas, leaf, shown.drawing, number, center),
-            None => written(canvas, number, center, Type::new(10.5)),
-        }
+        let look = Type::new(10.5);
+        let color = style::of_role(leaf.layer.drawings[shown.drawing].role);
+        let is_key = leaf.genga[shown.drawing].is_some();
+        let look = if is_key { look.bold().color(color) } else { look };
+        written(canvas, shown.drawing + 1, center, look);
     });
     carried_over(canvas, leaf, half, place, &|drawing| Some(drawing + 1));
     mark_end(canvas, leaf, half, place);

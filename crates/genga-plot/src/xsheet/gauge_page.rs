@@ -2,16 +2,13 @@
 
 use crate::canvas::{Align, Canvas, Type};
 use crate::style;
-use crate::xsheet::XSheet;
 use crate::xsheet::column::key;
 use crate::xsheet::grid::{FRAME, WIDTH};
-use crate::xsheet::head::boxes;
+use crate::xsheet::head;
 use crate::xsheet::layout::{Page, SIZE};
 use crate::xsheet::paper_layer::Leaf;
 use crate::xsheet::spread::Spread;
 use genga::motion::Clip;
-use genga::sheet::Sheet;
-use genga::slate::Slate;
 use genga::timing::{Gauge, fraction};
 
 const TOP: f64 = 118.0;
@@ -25,23 +22,25 @@ const LONG: f64 = 244.0;
 const LABEL: f64 = 10.0;
 const OVER: f64 = 11.0;
 
-/// Draws the pages of gauges. Gauges without a drawing between their keys are left out; if none remain, there
-/// is no page.
-pub(super) fn draw(
-    settings: &XSheet,
-    (cut, slate): (&str, &Slate),
-    clip: &Clip,
-    sheet: &Sheet,
-    leaves: &[Leaf<'_>],
-) -> Vec<String> {
+/// A gauge and its layer.
+pub(super) type Entry<'a> = (&'a Leaf<'a>, &'a Gauge);
+
+/// Returns the gauges that have a drawing between their keys.
+pub(super) fn entries<'a>(leaves: &'a [Leaf<'a>]) -> Vec<Entry<'a>> {
     let all = leaves.iter().flat_map(|leaf| leaf.gauges.iter().map(move |gauge| (leaf, gauge)));
-    let all: Vec<_> = all.filter(|(_, gauge)| !gauge.between().is_empty()).collect();
-    let of = all.len().div_ceil(2 * ROWS);
-    let page = |(at, gauges): (usize, &[(&Leaf<'_>, &Gauge)])| {
-        let number = at + 1;
-        let page = Page { settings, cut, slate, sheet, leaves, begin: 0, number, of };
+    all.filter(|(_, gauge)| !gauge.between().is_empty()).collect()
+}
+
+/// Returns how many pages gauges need; none without a gauge.
+pub(super) fn count(entries: &[Entry<'_>]) -> usize {
+    entries.len().div_ceil(2 * ROWS)
+}
+
+/// Draws the pages of gauges, numbered from `first` on.
+pub(super) fn draw(first: &Page<'_>, clip: &Clip, entries: &[Entry<'_>]) -> Vec<String> {
+    let page = |(at, gauges): (usize, &[Entry<'_>])| {
         let mut canvas = Canvas::new(SIZE);
-        boxes(&mut canvas, &page, &format!("ツメ {number} / {of}"));
+        head::boxes(&mut canvas, &Page { number: first.number + at, ..*first });
         title(&mut canvas);
         for (at, (leaf, gauge)) in gauges.iter().enumerate() {
             let left = WIDTH.0 + (at / ROWS) as f64 * WIDE;
@@ -50,7 +49,7 @@ pub(super) fn draw(
         }
         canvas.finish()
     };
-    all.chunks(2 * ROWS).enumerate().map(page).collect()
+    entries.chunks(2 * ROWS).enumerate().map(page).collect()
 }
 
 fn title(canvas: &mut Canvas) {

@@ -58,10 +58,19 @@ impl Span {
         }
     }
 
+    /// Returns the y nearest to a tick at which a fraction is clear of the lines between koma.
+    fn inside_koma(&self, y: f64) -> f64 {
+        let (top, half) = (self.half.y(self.half.begin), 0.5 * APART + 0.5);
+        let koma = ((y - top) / ROW).floor();
+        y.clamp(top + koma * ROW + half, top + (koma + 1.0) * ROW - half)
+    }
+
     /// Writes the fractions beside the ticks, and the kind of packing.
     fn words(&self, canvas: &mut Canvas, gauge: &Gauge, right: f64) {
-        let here =
-            gauge.between().iter().filter_map(|share| Some((self.y(*share)?, fraction(*share))));
+        let here = gauge
+            .between()
+            .iter()
+            .filter_map(|share| Some((self.inside_koma(self.y(*share)?), fraction(*share))));
         let (wanted, fractions): (Vec<f64>, Vec<&str>) = here.unzip();
         let top = self.y(0.0).unwrap_or(self.half.y(self.half.begin));
         let bottom = self.y(1.0).unwrap_or(self.half.y(self.half.end()));

@@ -16,8 +16,7 @@ const HIGH: f64 = 50.0;
 
 /// Draws the boxes and the lines of counts.
 pub(super) fn draw(canvas: &mut Canvas, page: &Page<'_>) {
-    let sheet = format!("{} / {}", page.number, page.of);
-    boxes(canvas, page, &sheet);
+    boxes(canvas, page);
     let base = TOP + HIGH + 18.0;
     for (at, line) in counts(page.leaves, page.sheet).into_iter().enumerate() {
         let text = style::fitted(&line, 12.0, WIDTH.1 - WIDTH.0);
@@ -26,8 +25,9 @@ pub(super) fn draw(canvas: &mut Canvas, page: &Page<'_>) {
 }
 
 /// Draws the boxes along the upper edge.
-pub(super) fn boxes(canvas: &mut Canvas, page: &Page<'_>, sheet: &str) {
+pub(super) fn boxes(canvas: &mut Canvas, page: &Page<'_>) {
     let slate = page.slate;
+    let sheet = format!("{} / {}", page.number, page.of);
     let time = seconds_and_koma(page.sheet.cut_length(), page.sheet.clock.koma_rate);
     let cut = match (slate.cut.as_str(), slate.take.as_str()) {
         ("", _) => page.cut.to_owned(),
@@ -46,7 +46,7 @@ pub(super) fn boxes(canvas: &mut Canvas, page: &Page<'_>, sheet: &str) {
         (270.0, &label, &cut, 19.0),
         (108.0, "尺 length s+k", &time, 21.0),
         (142.0, "原画 key animator", &slate.animator, 15.0),
-        (110.0, "シート sheet", sheet, 17.0),
+        (110.0, "シート sheet", &sheet, 17.0),
     ];
     let mut left = WIDTH.0;
     for (width, label, value, size) in boxes {

@@ -23,6 +23,7 @@ const BLOCK: f64 = 150.0;
 const SPEECH: f64 = 38.0;
 
 /// A page: some layers over 144 koma.
+#[derive(Clone, Copy)]
 pub(super) struct Page<'a> {
     pub(super) settings: &'a XSheet,
     pub(super) cut: &'a str,
@@ -31,6 +32,7 @@ pub(super) struct Page<'a> {
     pub(super) leaves: &'a [Leaf<'a>],
     /// First koma of the page.
     pub(super) begin: usize,
+    /// Number of this page, from 1, and number of pages.
     pub(super) number: usize,
     pub(super) of: usize,
 }

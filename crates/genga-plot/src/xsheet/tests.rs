@@ -170,6 +170,39 @@ fn a_page_has_144_koma_and_eight_layers_at_most() {
 }
 
 #[test]
+fn all_pages_are_numbered_as_one_series_gauges_too() {
+    let shown: Vec<_> = (0..45).flat_map(|_| [('g', 4), ('i', 4)]).collect();
+    let pages = pages(&XSheet::default(), vec![layer("A", &shown)]);
+    assert_eq!(pages.len(), 3 + 1, "360 koma, and gauges");
+    for (at, page) in pages.iter().enumerate() {
+        assert!(words(page).contains(&format!("{} / 4", at + 1)), "page {}", at + 1);
+        assert_eq!(words(page).contains(&"ツメ指示 spacing gauges".to_owned()), at == 3);
+    }
+}
+
+#[test]
+fn a_fraction_beside_action_is_clear_of_the_lines_between_koma() {
+    let settings = XSheet { gauges: false, ..XSheet::default() };
+    // On threes a tick comes wherever its share of the way is, also on a line.
+    let shown: Vec<_> = (0..18).map(|at| (if at % 2 == 0 { 'g' } else { 'i' }, 4)).collect();
+    let page = &pages(&settings, vec![layer("A", &shown)])[0];
+    let number = |line: &str, name: &str| {
+        let rest = line.split(&format!(" {name}=\"")).nth(1).unwrap();
+        rest.split('"').next().unwrap().parse::<f64>().unwrap()
+    };
+    let fractions = page.lines().filter(|line| {
+        let text = line.strip_suffix("</text>").and_then(|line| line.rsplit('>').next());
+        line.contains("\"8.5\"") && text.is_some_and(|text| text.contains('/'))
+    });
+    let boxes: Vec<_> = fractions.map(|line| number(line, "y") - 3.0).collect();
+    assert!(boxes.len() >= 8, "{boxes:?}");
+    for middle in boxes {
+        let row = (middle - half_page::TOP).rem_euclid(half_page::ROW);
+        assert!(row > 4.0 && row < half_page::ROW - 4.0, "{middle}: {row} of a row");
+    }
+}
+
+#[test]
 fn a_hold_line_stands_under_what_stays_for_more_than_three_koma() {
     let lines = |hold_line, shown: &[(char, usize)]| {
         let settings = XSheet { hold_line, gauges: false, ..XSheet::default() };
@@ -190,7 +223,7 @@ fn a_hold_line_stands_under_what_stays_for_more_than_three_koma() {
 }
 
 #[test]
-fn keys_are_circled_in_both_columns_and_inbetweens_are_marks_in_one() {
+fn the_numbers_of_genga_are_circled_and_those_of_drawings_are_not() {
     let settings = XSheet { gauges: false, ..XSheet::default() };
     let circles = |settings: &XSheet, radius: f64| {
         let page = &pages(settings, vec![layer("A", &CUT)])[0];
@@ -198,9 +231,19 @@ fn keys_are_circled_in_both_columns_and_inbetweens_are_marks_in_one() {
         let outer = |line: &&str| line.starts_with("<circle") && line.contains(&circle);
         page.lines().filter(outer).filter(|line| line.contains("stroke=\"#")).count()
     };
-    // Four keys in two columns, and two in the legend.
+    // Four keys in ACTION, and two in the legend.
     let rings = |settings| circles(settings, 7.2);
-    assert_eq!(rings(&settings), 10);
+    assert_eq!(rings(&settings), 4 + 2);
+    // CELL has all seven numbers, those of keys in bold.
+    let cell = 8.0 + 30.0 + 58.0 + 150.0 + 38.0 + 15.0;
+    let page = &pages(&settings, vec![layer("A", &CUT)])[0];
+    let numbers = page.lines().filter(|line| {
+        line.starts_with("<text")
+            && line.contains(&format!("x=\"{cell}\""))
+            && line.contains("\"10.5\"")
+    });
+    let is_bold: Vec<bool> = numbers.map(|line| line.contains("bold")).collect();
+    assert_eq!(is_bold, CUT.map(|(role, _)| role != 'i'));
     let dots = pages(&settings, vec![layer("A", &CUT)])[0].matches(" r=\"2.2\"").count();
     assert_eq!(dots, 4, "three inbetweens and the legend");
     let round = XSheet { inbetween: InbetweenMark::Circle, ..settings };
