@@ -113,6 +113,14 @@ def joints(thing, names, frame):
     return np.array([drawn.matrix_world @ drawn.pose.bones[name].head for name in names])
 
 
+def height_of(thing, names):
+    """The height of the body as it stands, from the tips of its bones."""
+    drawn = thing.evaluated_get(bpy.context.evaluated_depsgraph_get())
+    bones = [drawn.pose.bones[name] for name in names]
+    ends = [drawn.matrix_world @ end for bone in bones for end in (bone.head, bone.tail)]
+    return np.ptp(np.array(ends), axis=0).max()
+
+
 def loops(clip, first, last):
     """The rounds of a loop are keys on the rig, and the body travels on as in limited.bvh."""
     thing = begin(rigs.of_bvh, clip)
@@ -171,7 +179,7 @@ def with_curves(name, thing, percent):
     keyed = np.stack([joints(thing, names, frame) for frame in range(first, last + 1)])
     bpy.ops.genga.toggle()
     taken = np.stack([joints(thing, names, frame) for frame in range(first, last + 1)])
-    height = np.ptp(taken[0], axis=0).max()
+    height = height_of(thing, names)
     off = np.linalg.norm(keyed - taken, axis=2).max() / height
     assert off < percent / 100.0, (name, off)
     # Where there are keys, the rig stands as in the take.
@@ -190,6 +198,9 @@ def all_curves():
     os.environ.get("QUICK") or with_curves("MMD", begin(rigs.of_mmd, KICK), 1.0)
     thing = begin(rigs.of_bvh, KICK)
     refused("this take has no sheet: find its keys first", bpy.ops.genga.curves)
+    find(thing)
+    thing.genga.leave_out = "*Hand"
+    refused("other bones are left out now: find the keys first", bpy.ops.genga.curves)
 
 
 def main():

@@ -59,6 +59,8 @@ class KeyedTake:
         self.rows = self.source.rows(range(first, last + 1))
         self.wanted = motion.within(finding.sampled.clip, first, last + 1)
         self.sampling = Sampling(context, thing)
+        if self.sampling.names() != self.wanted.names:
+            raise Refused("other bones are left out now: find the keys first")
         self.sampling.within(self.start + first, self.start + last)
 
     def steps(self):

@@ -75,6 +75,10 @@ class Sampling:
             value = drawn.path_resolve(path)
             self.values[row, at] = value[index] if hasattr(value, "__len__") else value
 
+    def names(self):
+        """Returns the names of the clip's bones."""
+        return [self.bones[at].name for at in self.chosen.bones]
+
     def rest(self):
         """Returns the world rest matrix of each bone of the clip."""
         return np.array(self.thing.matrix_world) @ np.stack([self.bones[at].rest for at in self.chosen.bones])
