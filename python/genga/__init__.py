@@ -27,6 +27,7 @@ from ._genga import (
     read,
     run,
     study,
+    tangents,
 )
 
 _MutableMapping.register(Recipe)
@@ -47,4 +48,5 @@ __all__ = [
     "read",
     "run",
     "study",
+    "tangents",
 ]

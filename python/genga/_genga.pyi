@@ -24,6 +24,7 @@ __all__ = [
     "knobs",
     "formats",
     "omit",
+    "tangents",
     "study",
     "evaluate",
     "compare",
@@ -98,6 +99,15 @@ class Clip:
     @property
     def warnings(self) -> list[dict[str, Any]]: ...
     def to_bvh(self) -> str: ...
+    def cleaned(
+        self,
+        *,
+        keep_lead_in: bool = False,
+        keep_glitches: bool = False,
+        trim: Optional[tuple[int, int]] = None,
+    ) -> Clip: ...
+    def cycles(self) -> _Table: ...
+    def distances(self, other: Clip) -> _Floats: ...
     def __len__(self) -> int: ...
 
 @final
@@ -259,6 +269,7 @@ def omit(
     koma_dori_first: bool = False,
     keep_length: bool = True,
 ) -> Omitted: ...
+def tangents(keys: Sequence[int], samples: npt.ArrayLike) -> _Floats: ...
 def study(
     clip: Union[_Source, Sequence[_Source]],
     recipe: Optional[Recipe] = None,

@@ -4,7 +4,6 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use genga::Warning;
-use genga::motion::clean::Cleaning;
 use genga::motion::{Axis, Clip as Motion, bvh};
 use genga::time::FrameRate;
 use genga_read as file;
@@ -18,6 +17,7 @@ use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyBytes, PyDict, PyType};
 
 use crate::arrays::{self, Arrays, Places};
+use crate::clean::cleaning;
 use crate::error::{asked_wrongly, raised, raised_of};
 use crate::pickle::{Head, Reduced};
 use crate::work;
@@ -90,7 +90,7 @@ impl Clip {
 }
 
 /// Returns the array as C-ordered float64: itself if it already is, else a copy.
-fn floats<'py>(array: &Bound<'py, PyAny>) -> PyResult<PyReadonlyArrayDyn<'py, f64>> {
+pub fn floats<'py>(array: &Bound<'py, PyAny>) -> PyResult<PyReadonlyArrayDyn<'py, f64>> {
     let numpy = array.py().import("numpy")?;
     numpy.call_method1("ascontiguousarray", (array, "float64"))?.extract()
 }
@@ -384,22 +384,12 @@ pub fn read(
     let at = path.clone();
     let made = work::done(py, move |_| {
         let read = path.map_or_else(|| options.read(&bytes), |path| options.open(&path))?;
-        part(read, (keep_lead_in, keep_glitches), trim)
+        let file::Read { clip, mut warnings, .. } = read;
+        let (clip, notes) = cleaning(keep_lead_in, keep_glitches, trim).apply(clip)?;
+        warnings.extend(notes);
+        clip.check_size()?;
+        Ok((clip, warnings))
     })?;
     let (motion, warnings) = made.map_err(|error| raised_of(py, error, at.as_deref()))?;
     Ok(Clip::new(Arc::new(motion), file, warnings))
-}
-
-/// Applies lead-in and glitch removal and the trim.
-fn part(
-    read: file::Read,
-    (keep_lead_in, keep_glitches): (bool, bool),
-    trim: Option<(usize, usize)>,
-) -> Result<(Motion, Vec<Warning>), genga::Error> {
-    let file::Read { clip, mut warnings, .. } = read;
-    let trim = trim.map(|(begin, end)| begin..end);
-    let (clip, notes) = Cleaning { keep_lead_in, keep_glitches, trim }.apply(clip)?;
-    warnings.extend(notes);
-    clip.check_size()?;
-    Ok((clip, warnings))
 }

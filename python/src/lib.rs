@@ -4,8 +4,11 @@
 //! own.
 
 mod arrays;
+mod clean;
 mod clip;
 mod corrections;
+mod curves;
+mod cycles;
 mod error;
 mod files;
 mod judge;
@@ -34,6 +37,7 @@ fn _genga(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(clip::read, module)?)?;
     module.add_function(wrap_pyfunction!(result::run, module)?)?;
     module.add_function(wrap_pyfunction!(knobs::knobs, module)?)?;
+    module.add_function(wrap_pyfunction!(curves::tangents, module)?)?;
     module.add_function(wrap_pyfunction!(files::formats, module)?)?;
     module.add_function(wrap_pyfunction!(omit::omit, module)?)?;
     module.add_function(wrap_pyfunction!(judge::study, module)?)?;

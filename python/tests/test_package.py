@@ -170,6 +170,59 @@ def test_joints_that_travel_and_tips_are_kept(clip):
         genga.Clip(**arrays, rate=clip.rate)
 
 
+def test_arrays_are_cleaned_as_a_file_is(clip):
+    posed = arrays_of(clip)
+    still = np.zeros((3, *clip.rotations.shape[1:])) + (0, 0, 0, 1)
+    posed["rotations"] = np.concatenate([still, clip.rotations])
+    posed["translations"] = np.concatenate([np.repeat(clip.translations[:1], 3, axis=0), clip.translations])
+    made = genga.Clip(**posed).cleaned()
+    assert (made.first, len(made)) == (3, len(clip))
+    assert [told["code"] for told in made.warnings] == ["W_LEAD_IN"]
+    assert (genga.run(made).keys["frame"] - 3).tolist() == genga.run(clip).keys["frame"].tolist()
+    kept = genga.Clip(**posed).cleaned(keep_lead_in=True, trim=(1, 40))
+    assert (kept.first, len(kept), kept.warnings) == (1, 39, [])
+    for path in real(*CLIPS[:2]):
+        raw, wanted = genga.read(path, keep_lead_in=True, keep_glitches=True), genga.read(path)
+        found = raw.cleaned()
+        assert (found.first, len(found), found.warnings) == (wanted.first, len(wanted), wanted.warnings), path.name
+        assert np.array_equal(found.rotations, wanted.rotations), path.name
+
+
+def test_motions_are_measured_against_each_other(clip):
+    assert clip.distances(clip).tolist() == [0.0] * len(clip)
+    moved = arrays_of(clip)
+    height = np.ptp(clip.positions[0], axis=0).max()
+    moved["translations"] = clip.translations.copy()
+    moved["translations"][40, 0, 0] += 0.1 * height
+    off = clip.distances(genga.Clip(**moved))
+    assert np.flatnonzero(off > 1e-9).tolist() == [40] and 0.08 < off[40] < 0.12
+    with pytest.raises(genga.Error, match="the same joints and frames"):
+        clip.distances(clip.cleaned(trim=(0, 40)))
+
+
+def test_curves_through_keys_come_close_to_the_samples():
+    frames = np.arange(31.0)
+    samples = np.stack([frames**2, np.sin(frames / 4), np.full(31, 5.0)], axis=1)
+    keys = [0, 9, 20, 30]
+    found = genga.tangents(keys, samples)
+    assert found.shape == (4, 3) and np.allclose(found[:, 0], 2.0 * frames[keys], atol=0.05)
+    assert np.allclose(found[:, 2], 0.0)
+    for wrong in ([0], [0, 0, 30], [0, 31]):
+        with pytest.raises(genga.Error, match="two or more of the 31 frames"):
+            genga.tangents(wrong, samples)
+    with pytest.raises(genga.Error, match="frames, channels"):
+        genga.tangents(keys, frames)
+
+
+def test_rounds_are_those_of_the_program():
+    tennis = ROOT / "data" / "tennis.bvh"
+    said = subprocess.run([PROGRAM, "split", str(tennis), "--cycles"], check=True, capture_output=True, encoding="utf-8").stdout
+    found = genga.read(tennis).cycles()
+    assert len(found["first"]) > 0
+    for first, last in zip(found["first"], found["last"]):
+        assert f"{first}..{last + 1} " in said, said
+
+
 def test_targets_are_those_of_the_program(clip, tmp_path):
     program(KICK, tmp_path / "program", "--keys", "9", "--drawings-per-second", "6")
     result = genga.run(clip, targets={"keys": 9, "drawings_per_second": 6, "max_error": None})

@@ -1,10 +1,6 @@
 """python find.py: what Find Keys does on a rig. GENGA is the program that it is compared with; QUICK=1 leaves the importers out."""
 
-import json
 import os
-import subprocess
-import tempfile
-from pathlib import Path
 from types import SimpleNamespace
 
 import bpy
@@ -14,104 +10,9 @@ import addon
 import rigs
 from addon import DATA, refused, say
 
-genga = addon.load()
-from genga_addon import apply, stepping, take  # noqa: E402
+from made import FOLDER, all_keys, begin, check_held, check_keys, find, genga, marks_of, stepping, take
 
-PROGRAM = os.environ["GENGA"]
 KICK = DATA / "kick.bvh"
-FOLDER = Path(tempfile.mkdtemp())
-
-
-def find(thing=None):
-    thing = thing or bpy.context.active_object
-    assert bpy.ops.genga.find_keys() == {"FINISHED"}
-    return thing.animation_data.action
-
-
-def begin(make, *options):
-    """A rig with a take, and the add-on."""
-    thing = make(*options)
-    if not hasattr(bpy.types.Object, "genga"):
-        genga.register()
-    return thing
-
-
-def all_keys(action, slot=None):
-    """Every key of an action, to the last bit."""
-    rows = []
-    for curve in stepping.curves(action, slot):
-        places = np.empty(2 * len(curve.keyframe_points), dtype=np.float32)
-        curve.keyframe_points.foreach_get("co", places)
-        rows.append((curve.data_path, curve.array_index, places.tobytes()))
-    return rows
-
-
-def pose(thing, frame):
-    """The whole pose in the world at a frame, to the last bit."""
-    bpy.context.scene.frame_set(int(frame // 1), subframe=frame % 1)
-    drawn = thing.evaluated_get(bpy.context.evaluated_depsgraph_get())
-    return b"".join(np.array(drawn.matrix_world @ bone.matrix, dtype=np.float32).tobytes() for bone in drawn.pose.bones)
-
-
-def check_held(thing, action):
-    """Each drawing stands still, to the last bit, and is what the take has at its place where that is a whole frame."""
-    begins, places = list(action[take.BEGINS]), list(action[take.PLACES])
-    end = action.frame_range[1]
-    held = 0
-    for at, begin in enumerate(begins):
-        until = begins[at + 1] if at + 1 < len(begins) else end
-        stood = pose(thing, begin)
-        for koma in range(int(begin), int(until)):
-            assert pose(thing, koma) == stood and pose(thing, koma + 0.9) == stood, koma
-            held += 1
-    shown = {at: pose(thing, begin) for at, begin in enumerate(begins) if places[at] == places[at] // 1}
-    bpy.ops.genga.toggle()
-    size = max(thing.dimensions) or 1.0
-    for at, drawn in shown.items():
-        off = np.abs(np.frombuffer(drawn, np.float32) - np.frombuffer(pose(thing, places[at]), np.float32)).max()
-        assert off < 1e-5 * max(size, 1.0), (at, off)
-    bpy.ops.genga.toggle()
-    assert thing.animation_data.action == action
-    return held, len(shown)
-
-
-def check_keys(action):
-    """Constant keys alone, typed by role."""
-    types = set()
-    for curve in stepping.curves(action):
-        assert [point.co.x for point in curve.keyframe_points] == list(action[take.BEGINS]), curve.data_path
-        for point in curve.keyframe_points:
-            assert point.interpolation == "CONSTANT"
-            types.add(point.type)
-    assert {"EXTREME", "BREAKDOWN"} <= types <= {"EXTREME", "BREAKDOWN", "MOVING_HOLD"}, types
-
-
-def the_programs_sheet(path, clip):
-    """The sheet of the BVH that Blender exports is the one on the rig, within a koma."""
-    thing = begin(rigs.of_bvh, clip)
-    played = thing.animation_data.action
-    before = all_keys(played)
-    first, last = (int(end) for end in played.curve_frame_range)
-    file = FOLDER / path
-    bpy.ops.export_anim.bvh(filepath=str(file), frame_start=first, frame_end=last)
-    out = file.with_suffix(".out")
-    subprocess.run([PROGRAM, "run", str(file), "--out", str(out), "--keep-lead-in", "--keep-glitches", "--quiet"], check=True)
-    layer = json.loads((out / "sheet.json").read_text(encoding="utf-8"))["layers"][0]
-    roles = {drawing["drawing"]: drawing["role"] for drawing in layer["drawings"]}
-    wanted, koma = [], 0
-    for exposure in layer["exposures"]:
-        if roles[exposure["drawing"]] != "inbetween":
-            wanted.append(koma)
-        koma += exposure["koma"]
-    action = find(thing)
-    result = genga.findings.of(thing)
-    keys = [exposure.koma for exposure in result.sheet().layers[0].exposures if exposure.is_key]
-    assert len(keys) == len(wanted), (keys, wanted)
-    furthest = max(abs(a - b) for a, b in zip(keys, wanted))
-    assert furthest <= 1, (keys, wanted)
-    assert all_keys(played) == before and action != played and played.use_fake_user, "the take stays"
-    say(f"{path}: {len(keys)} genga as in the program's sheet of Blender's export, {furthest} koma off at the most")
-    return thing, action
 
 
 def held_still(thing, action):
@@ -137,13 +38,15 @@ def undone():
     assert state() == before, "one undo"
     thing = bpy.data.objects[name]
     thing.genga.on = "3"
-    assert thing.animation_data.action.name == "kick koma", "a knob after an undo"
+    thing.genga.on = "2"
+    assert [action.name for action in bpy.data.actions] == ["kick", "kick koma"], "knobs after an undo"
+    assert thing.animation_data.action.name == "kick koma"
     say("one undo leaves no trace")
 
 
 def knobs_and_marks():
     thing = begin(rigs.of_bvh, KICK)
-    fresh = genga.settings.recipe(thing.genga, [], 1)
+    fresh = genga.settings.recipe(thing.genga, genga.pins.read([]), 1)
     import genga as engine
 
     assert fresh == engine.Recipe(), "knobs that are not touched change nothing"
@@ -167,24 +70,15 @@ def knobs_and_marks():
     assert 26 not in keys()
     find(thing)
     assert 26 in keys(), "a key marked as extreme is pinned"
-    thing.genga.forbid = "26..30"
-    assert "26" in " ".join(genga.findings.TOLD[thing.name]) or 26 in keys()
-    thing.genga.forbid = ""
     bpy.context.scene.frame_set(50)
-    for curve in stepping.curves(action):
-        for point in curve.keyframe_points:
-            point.select_control_point = False
     bpy.ops.genga.toggle()
-    for curve in stepping.curves(played):
-        for point in curve.keyframe_points:
-            point.select_control_point = False
     bpy.ops.genga.mark(what="ONLY")
-    assert thing.genga.pins == "50" and thing.genga.only_pins
+    assert marks_of() == [("pin", 50)] and thing.genga.only_pins
     assert {1, 26, 50} < keys() and len(keys()) == 4, keys()
     bpy.ops.genga.mark(what="CLEAR")
-    assert thing.genga.pins == "" and len(keys()) > 4
+    assert marks_of() == [] and len(keys()) > 4
     thing.genga.rest = "keys.min_prize=8"
-    assert "did you mean keys.min_price" in genga.findings.TOLD[thing.name][0]
+    assert "did you mean keys.min_price" in thing.genga.told
     refused("did you mean keys.min_price", bpy.ops.genga.find_keys)
     thing.genga.rest = ""
     written = FOLDER / "sheet"
@@ -197,7 +91,7 @@ def knobs_and_marks():
 def presets():
     """Each preset does on the kick what it is called."""
     found = {}
-    for name in ("", *(preset[0] for preset in genga.knobs.PRESETS)):
+    for name in ("", *(preset[0] for preset in genga.presets.PRESETS)):
         thing = begin(rigs.of_bvh, KICK)
         name and bpy.ops.genga.preset(preset=name)
         action = find(thing)
@@ -206,6 +100,7 @@ def presets():
         found[name] = SimpleNamespace(genga=len(action.pose_markers), drawings=len(begins), stays=stays)
     usual = lambda name: max(set(found[name].stays), key=found[name].stays.count)
     laws = {
+        "usual": lambda own: vars(own) == vars(found[""]),
         "twos": lambda own: usual("twos") == min(own.stays) == 2,
         "threes": lambda own: usual("threes") == 3 and 1 not in own.stays and own.drawings < found["twos"].drawings,
         "modulated": lambda own: {1, 2, 3} <= set(own.stays),
@@ -247,11 +142,11 @@ LED = {"Rigify": "DEF-thigh.L", "MMD": "右足,"}
 def led_by_controls(name, thing):
     """Feet of a rig whose legs no key of their own turns stay, and it is said."""
     thing.genga.feet = True
-    told = " ".join(genga.findings.TOLD[thing.name])
+    told = thing.genga.told
     assert "the feet move with their drawings" in told and "limited.bvh" in told, told
     assert LED[name] in told, told
     thing.genga.feet = False
-    assert "feet" not in " ".join(genga.findings.TOLD[thing.name])
+    assert "feet" not in thing.genga.told
 
 
 def ticked():
@@ -277,11 +172,14 @@ def told_kindly():
     """What cannot be is refused in words."""
     thing = begin(rigs.of_bvh, KICK)
     refused("choose a folder", lambda: find() and bpy.ops.genga.export(directory="", formats={"csv"}))
-    thing.genga.pins = "soon"
-    refused("a pin is a frame, such as 40:contact", bpy.ops.genga.find_keys)
-    thing.genga.pins = "1000"
+    markers = bpy.context.scene.timeline_markers
+    for name, words in (("forbid soon", "is not understood"), ("forbid to", "has no “forbid from”"), ("forbid from", "has no “forbid to”")):
+        marker = markers.new(name, frame=20)
+        refused(words, bpy.ops.genga.find_keys)
+        markers.remove(marker)
+    marker = markers.new("pin", frame=1000)
     refused("which is frame 1 here", bpy.ops.genga.find_keys)
-    thing.genga.pins = ""
+    markers.remove(marker)
     thing.genga.leave_out = "*"
     refused("no bone is left", bpy.ops.genga.find_keys)
     thing.genga.leave_out = ""
@@ -301,9 +199,10 @@ def in_japanese():
     """Every label of the panel, the knobs and the presets has a Japanese word. Blender as a module has no languages."""
     said = genga.words.JAPANESE
     knobs = [own for name, own in genga.knobs.GengaKnobs.bl_rna.properties.items() if name not in ("rna_type", "name")]
-    labels = {own.name for own in knobs if not own.is_hidden} | {preset[1] for preset in genga.knobs.PRESETS}
+    labels = {own.name for own in knobs if not own.is_hidden and own.type != "COLLECTION"} | {preset[1] for preset in genga.presets.PRESETS}
     labels |= {panel.bl_label for panel in genga.panel.PANELS} | {"Find Keys", "Show the Take", "Pin", "Forbid", "Only", "Clear"}
-    labels |= {"Left Out", "Leave Out Selected", "Leave Out None"}
+    labels |= {own.name for own in genga.knobs.GengaPassage.bl_rna.properties.values() if own.identifier in ("start", "end")}
+    labels |= {"Keys with Curves", "Language", "Default Preset", "Left Out", "Leave Out Selected", "Leave Out None"}
     assert labels <= set(said), labels - set(said)
     # Nothing of what is translated is gone.
     source = "".join(path.read_text(encoding="utf-8") for path in addon.PLACE.glob("*.py") if path.name != "words.py")
@@ -384,12 +283,8 @@ def importers():
 
 def main():
     print(f"Find Keys in Blender {bpy.app.version_string}")
-    held_still(*the_programs_sheet("kick.bvh", KICK))
-    run = addon.CLIPS / "cmu-09_01-run.bvh"
-    if run.exists():
-        the_programs_sheet("run.bvh", run)
-    else:
-        say(f"LEFT OUT: Find Keys does not look at {run.stem}")
+    thing = begin(rigs.of_bvh, KICK)
+    held_still(thing, find(thing))
     undone()
     knobs_and_marks()
     presets()

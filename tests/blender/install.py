@@ -20,9 +20,12 @@ def main():
     bpy.ops.import_anim.bvh(filepath=str(DATA / "kick.bvh"))
     assert bpy.ops.genga.find_keys() == {"FINISHED"}
     names = [kind for kind in dir(bpy.types) if kind.startswith("GENGA_PT_")]
-    assert len(names) == 8, names
+    assert len(names) == 10, names
+    page = next(addon for addon in bpy.context.preferences.addons if addon.module.endswith(".genga")).preferences
+    page.language, page.preset = "ja_JP", "few"
+    page.language = "AUTO"
     print(f"Installed in Blender {bpy.app.version_string}")
-    say(f"the wheel is its own, {len(names)} panels")
+    say(f"the wheel is its own, {len(names)} panels, a page of preferences")
 
 
 addon.run(main)

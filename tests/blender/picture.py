@@ -53,11 +53,15 @@ def split():
 
 
 def mend():
-    """What Debian's Blender 3.4 lacks: its importer opens files as its Python no longer does, and words have no context."""
+    """What Debian's Blender 3.4 lacks: its importer opens files as its Python no longer does, words have no context, and
+    objects no id of the session."""
     import_bvh.open = lambda path, _mode: open(path)
     for name in ("BoolProperty", "EnumProperty", "FloatProperty", "IntProperty", "StringProperty"):
         own = getattr(bpy.props, name)
         setattr(bpy.props, name, lambda own=own, translation_context=None, **about: own(**about))
+    for kind in (bpy.types.Object, bpy.types.Action):
+        kind.session_uid = property(lambda own: own.as_pointer())
+    bpy.types.Object.is_editable, bpy.types.Window.modal_operators = True, ()
 
 
 def play():

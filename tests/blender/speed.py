@@ -53,15 +53,16 @@ took = {}
 def main():
     thing = long_take()
     genga.register()
-    sampling = sample.Sampling(bpy.context, thing.genga)
+    sampling = sample.Sampling(bpy.context, thing)
     timed("Blender evaluates and is sampled", lambda: [None for _ in sampling.steps()])
     sampled = timed("matrices become a clip", sampling.sampled)
     own = Finding(sampled)
-    asked = findings.asked(thing, sampling.take, sampled)
-    timed("genga finds the keys", lambda: own.find(*asked))
+    findings.ask(bpy.context.scene, thing, sampling.take, own)
+    findings.keep(thing, own)
+    timed("genga finds the keys", own.find)
     timed("keys are put onto the rig", lambda: findings.put(bpy.context.scene, thing, take.Take(thing), own))
-    findings.FINDINGS[thing.name] = own
     timed("a knob is turned (on threes), all of it", lambda: setattr(thing.genga, "on", "3"))
+    timed("keys with curves are fitted", bpy.ops.genga.curves)
     print(f"{FRAMES} frames, {len(sampled.clip.names)} bones, Blender {bpy.app.version_string}")
     print("   clock, processor")
     for what, (seconds, busy) in took.items():

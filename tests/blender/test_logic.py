@@ -16,8 +16,8 @@ DATA = Path(__file__).resolve().parents[2] / "data"
 package = types.ModuleType("genga_addon")
 package.__path__ = [str(PLACE)]
 sys.modules["genga_addon"] = package
-feet, fit, motion, pins, refused, rig, run, settings = (
-    importlib.import_module(f"genga_addon.{name}") for name in ("feet", "fit", "motion", "pins", "refused", "rig", "run", "settings")
+feet, files, fit, motion, pins, refused, rig, run, settings = (
+    importlib.import_module(f"genga_addon.{name}") for name in ("feet", "files", "fit", "motion", "pins", "refused", "rig", "run", "settings")
 )
 
 
@@ -158,7 +158,8 @@ class Feet(unittest.TestCase):
 
         def turned(**settings):
             finding = run.Finding(SimpleNamespace(clip=clip, rest=rest, start=1))
-            finding.find(genga.Recipe(**settings), {})
+            finding.asked = genga.Recipe(**settings), {}
+            finding.find()
             sheet = finding.sheet()
             return finding.turns(sheet), fit.left_out(sheet, holds=True)
 
@@ -184,29 +185,53 @@ def world(parents, local):
 
 
 class Corrections(unittest.TestCase):
-    def test_frames_of_blender_become_those_of_the_clip(self):
-        self.assertEqual(pins.pins("12, 40:contact", 1), ["11", "39:contact"])
-        self.assertEqual(pins.forbidden("50, 60..66", 10), ["40", "50..56"])
-        for text in ("soon", "12 13", "1.5"):
-            with self.subTest(text=text), self.assertRaisesRegex(refused.Refused, "40:contact"):
-                pins.pins(text, 1)
-        with self.assertRaisesRegex(refused.Refused, "50..60"):
-            pins.forbidden("60..", 1)
+    def test_markers_are_read_in_the_programs_notation(self):
+        marks = [("pin contact", 40), ("Pin", 12), ("forbid", 50), ("forbid to", 66), ("forbid from", 60), ("3 Armature", 7), ("note", 8)]
+        read = pins.read(marks)
+        self.assertEqual(read.of_clip(1), (["11", "39:contact"], ["49..50", "59..66"]))
+        self.assertEqual(read.with_pins([40, 41]).of_clip(0)[0], ["12", "40:contact", "41"])
+        self.assertEqual(pins.read([("固定", 3), ("禁止 から", 5), ("禁止 まで", 8)]), ((((3, ""),)), ((5, 9),)))
+        self.assertEqual([pins.is_mark(name) for name in ("pin", "FORBID from", "pinned", "", "禁止")], [True, True, False, False, True])
 
-    def test_marks_are_added_once_and_in_runs(self):
-        self.assertEqual(pins.with_pins("40:contact", {40, 12}), "40:contact, 12")
-        self.assertEqual(pins.with_forbidden("3", {3, 7, 8, 9, 12}), "3, 7..10, 12")
+    def test_what_a_marker_does_not_say_is_refused_in_words(self):
+        for marks, words in (
+            ([("forbid twice", 5)], "“forbid twice” on frame 5 is not understood: name it forbid"),
+            ([("forbid to", 5)], "on frame 5 has no “forbid from” in front of it"),
+            ([("forbid from", 5)], "on frame 5 has no “forbid to” behind it"),
+            ([("forbid from", 5), ("forbid from", 8)], "on frame 8 follows another one on frame 5"),
+        ):
+            with self.subTest(marks=marks), self.assertRaisesRegex(refused.Refused, words):
+                pins.read(marks)
+
+    def test_frames_are_forbidden_one_by_one_or_in_runs(self):
+        self.assertEqual(pins.forbidding([9, 3, 7, 8, 8]), [("forbid", 3), ("forbid from", 7), ("forbid to", 9)])
+        self.assertEqual(pins.read(pins.forbidding([3, 7, 8, 9])).forbidden, ((3, 4), (7, 10)))
         self.assertEqual(pins.runs([]), [])
+
+
+class Rounds(unittest.TestCase):
+    def test_going_back_is_going_on_in_the_next_round(self):
+        def rounds(begin, frames, *places):
+            drawings = [{"drawing": at, "role": "genga", "frame": place} for at, place in enumerate(places)]
+            exposures = [{"drawing": at, "koma": 2} for at in range(len(places))]
+            layer = files.Layer({"name": "A", "drawings": drawings, "exposures": exposures})
+            layer.unwind(begin, frames)
+            return [exposure.round for exposure in layer.exposures]
+
+        self.assertEqual(rounds(16, 87, 16, 40, 80, 3, 16, 40), [0, 0, 0, 1, 1, 1])
+        self.assertEqual(rounds(1, 87, 86, 20, 86, 20), [-1, 0, 0, 1], "a drawing held over from the round before")
+        self.assertEqual(rounds(5, 87, 5, 5, 5), [0, 1, 2], "the only drawing of a round")
 
 
 class Settings(unittest.TestCase):
     KNOBS = SimpleNamespace(
         rate=24.0, on="2-3", snap=np.float32(0.3).item(), naka_nashi=4.0, koma_dori=np.float32(100 / 3).item(),
-        feet=False, rest="", pins="", forbid="", only_pins=False, genga=0, drawings=0.0,
+        feet=False, rest="", only_pins=False, genga=0, drawings=0.0, loop=False, cycles=1, passages=(), outside="TIMED",
     )
 
     def recipe(self, marked=(), **turned):
-        return settings.recipe(SimpleNamespace(**{**vars(self.KNOBS), **turned}), list(marked), 1)
+        corrections = pins.Corrections((), ()).with_pins(marked)
+        return settings.recipe(SimpleNamespace(**{**vars(self.KNOBS), **turned}), corrections, 1)
 
     def test_knobs_that_nobody_turned_are_the_programs(self):
         self.assertEqual(self.recipe(), genga.Recipe())
@@ -219,6 +244,30 @@ class Settings(unittest.TestCase):
         self.assertEqual(found, wanted)
         with self.assertRaisesRegex(refused.Refused, "a setting is a name and a value"):
             self.recipe(rest="keys.min_price")
+
+    def test_a_passage_has_settings_of_its_own_in_frames_of_the_clip(self):
+        own = SimpleNamespace(**{**vars(self.KNOBS), "start": 31, "end": 60, "on": "1", "rest": "spacing.drift=0"})
+        wanted = genga.Recipe()
+        of_passage = {"spacing.on": 1, "spacing.weight": 0.3, "spacing.drift": 0, "omission.naka_nashi": "4%", "omission.koma_dori": "1/3"}
+        wanted["passages"], wanted["outside"] = [{"frames": [30, 60], **of_passage}], "source"
+        self.assertEqual(self.recipe(passages=[own], outside="SOURCE"), wanted)
+        with self.assertRaisesRegex(refused.Refused, "has no frame of the take, which begins on 1"):
+            self.recipe(passages=[SimpleNamespace(**{**vars(own), "start": -9, "end": 0})])
+
+    def test_a_loop_has_rounds_and_the_way_to_one_is_said(self):
+        self.assertEqual(self.recipe(cycles=4), genga.Recipe(), "no loop")
+        self.assertEqual(self.recipe(loop=True, cycles=4), genga.Recipe(loop=True, cycles=4))
+        ways = {
+            "swing": "Frames 6 to 29 are one (0.4 %): make them the preview range, and set Frames to Scene",
+            "pitch": "and no part of the take is one",
+        }
+        for name, way in ways.items():
+            finding = run.Finding(SimpleNamespace(clip=genga.read(DATA / f"{name}.bvh"), start=1))
+            finding.asked = self.recipe(loop=True), {}
+            with self.assertRaises(refused.Refused) as told:
+                finding.find()
+            self.assertTrue(str(told.exception).startswith("a loop needs a round: the last pose is not the first: "))
+            self.assertTrue(str(told.exception).endswith(way), told.exception)
 
     def test_targets_are_asked_for_where_they_are_not_0(self):
         knobs = SimpleNamespace(genga=9, drawings=np.float32(6.1).item())

@@ -16,7 +16,7 @@ MANIFEST = tomllib.loads((PLACE / "blender_manifest.toml").read_text(encoding="u
 # Modules that open no connection, start no program and write no file. `genga` writes where a person said.
 MODULES = {
     "bisect", "bpy", "bpy_extras", "contextlib", "fnmatch", "genga", "itertools", "json", "math", "mathutils", "numpy", "re", "struct",
-    "threading", "time", "typing",
+    "threading", "time", "types", "typing", "uuid",
 }
 # Names that run text as code, or lead to the add-on's own folder.
 NAMES = {"eval", "exec", "compile", "__import__", "__file__", "__path__", "__loader__", "__spec__"}

@@ -4,12 +4,15 @@
 import bpy
 from bpy.props import PointerProperty
 
-from . import bones, export, find, findings, from_file, knobs, panel, turn, words
+from . import bones, curves, export, find, findings, from_file, knobs, panel, preferences, turn, watch, words
 
 CLASSES = (
+    preferences.GengaPreferences,
+    knobs.GengaPassage,
     knobs.GengaKnobs,
     *from_file.OPERATORS,
     find.GENGA_OT_find_keys,
+    curves.GENGA_OT_curves,
     *turn.CLASSES,
     *bones.CLASSES,
     export.GENGA_OT_export,
@@ -24,13 +27,14 @@ def register():
     bpy.types.Bone.genga_left_out = bones.LEFT_OUT
     bpy.types.TOPBAR_MT_file_import.append(from_file.menu)
     bpy.app.handlers.load_post.append(findings.forget)
-    operator = bpy.app.translations.contexts.operator_default
-    bpy.app.translations.register(__name__, words.translations(operator))
+    bpy.app.timers.register(watch.look, first_interval=watch.LOOK, persistent=True)
+    words.speak(preferences.of(bpy.context).language)
 
 
 def unregister():
     findings.forget()
-    bpy.app.translations.unregister(__name__)
+    words.be_silent()
+    bpy.app.timers.unregister(watch.look)
     bpy.app.handlers.load_post.remove(findings.forget)
     bpy.types.TOPBAR_MT_file_import.remove(from_file.menu)
     del bpy.types.Bone.genga_left_out

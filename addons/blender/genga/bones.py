@@ -5,6 +5,7 @@ from bpy.props import BoolProperty, EnumProperty
 from bpy.types import Operator, UIList
 
 from . import rig, words
+from .subject import armature_of, editable
 from .turn import OfArmature
 
 LEFT_OUT = BoolProperty(name="Left Out", description="Ignore this bone; it still gets keys")
@@ -17,7 +18,7 @@ class GENGA_UL_bones(UIList):
         row = layout.row(align=True)
         # Shows the checkbox before the bone's name.
         row.use_property_split = False
-        row.active = bone.name in self.staying(context.active_object)
+        row.active = bone.name in self.staying(armature_of(context))
         row.prop(bone, "genga_left_out", text="")
         row.label(text=bone.name, translate=False)
 
@@ -46,14 +47,14 @@ class GENGA_OT_tick(OfArmature, Operator):
         return cls.bl_rna.properties["what"].enum_items[properties.what].description
 
     def run(self, context):
-        for bone in context.active_object.data.bones:
+        for bone in editable(context).data.bones:
             bone.genga_left_out = self.what == "SELECTED" and (bone.genga_left_out or is_selected(context, bone))
         return {"FINISHED"}
 
 
 def is_selected(context, bone):
     """Reports whether a bone is selected. Since Blender 5.0 the pose bone stores this."""
-    posed = context.active_object.pose.bones[bone.name]
+    posed = armature_of(context).pose.bones[bone.name]
     return posed.select if hasattr(posed, "select") else bone.select
 
 

@@ -6,6 +6,7 @@ from bpy.types import Operator
 
 from . import findings
 from .refused import Refused, Reported
+from .subject import armature_of
 
 FORMATS = (
     ("xdts", "XDTS", "Timesheets for drawing programs"),
@@ -35,7 +36,7 @@ class GENGA_OT_export(Reported, Operator):
 
     @classmethod
     def poll(cls, context):
-        if findings.of(context.active_object) is None:
+        if findings.of(armature_of(context)) is None:
             cls.poll_message_set("Find the keys of an armature first")
             return False
         return True
@@ -47,7 +48,7 @@ class GENGA_OT_export(Reported, Operator):
     def run(self, context):
         if not self.formats or not self.directory:
             raise Refused("choose a folder and at least one format")
-        result = findings.of(context.active_object).result
+        result = findings.of(armature_of(context)).result
         names = [name for name, *_ in FORMATS if name in self.formats]
         written = result.write(self.directory, *names)
         self.report({"INFO"}, f"{len(written)} files in {self.directory}")

@@ -19,6 +19,8 @@ class Exposure:
 
     def __init__(self, koma, drawing):
         self.koma = koma
+        # The round of a loop that it is in. The body is a round's way further in each.
+        self.round = 0
         self.role = drawing.get("role", "")
         why = drawing.get("why", {})
         # A rest, or an inbetween that also replaces others.
@@ -59,8 +61,20 @@ class Layer:
             raise NotAFile(f"layer {self.name} has no drawing")
 
 
+    def unwind(self, begin, frames):
+        """Numbers the rounds of a loop of `frames` frames, whose first drawing is nearest to `begin`. Going back is going
+        on in the next round; so is the only drawing of a round."""
+        shown = [exposure.place for exposure in self.exposures]
+        is_alone = len(set(shown)) == 1
+        made = round((begin - shown[0]) / frames)
+        for at, exposure in enumerate(self.exposures):
+            made += bool(at) and (is_alone or shown[at] < shown[at - 1])
+            exposure.round = made
+
+
 class Sheet:
-    """A sheet.json: its layers, its length in koma, and its take."""
+    """A sheet.json: its layers, its length in koma, and its take. `begin` is the source frame of its first koma, and
+    `round` the number of frames of a loop's round, 0 if the sheet does not repeat."""
 
     def __init__(self, sheet):
         if sheet["schema"] not in SHEET_SCHEMAS:
@@ -73,6 +87,11 @@ class Sheet:
         # Before the koma `at`, which counts from 1, and after the last drawing the cut is blank. The poses stand there.
         self.layers = [Layer(layer, int(sheet.get("at", 1)) - 1) for layer in sheet["layers"]]
         self.length = max([int(sheet.get("length", 0)), *(layer.length for layer in self.layers)])
+        self.begin, self.round = self.first, 0
+        if sheet.get("loop"):
+            self.round, self.begin = int(sheet["loop"]["frames"]), round(self.layers[0].exposures[0].place)
+            for layer in self.layers:
+                layer.unwind(self.begin, self.round)
         self.root_on_ones = sheet.get("root") == "ones"
         self.feet_held = sheet.get("feet") == "held"
         self.exaggerated = "exaggerate" in sheet

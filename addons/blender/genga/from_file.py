@@ -8,7 +8,7 @@ from bpy.props import BoolProperty, IntProperty, StringProperty
 from bpy.types import Operator
 from bpy_extras.io_utils import ImportHelper
 
-from . import files, fit, stepping
+from . import files, fit, stepping, travel
 from .refused import Reported
 from .take import STEPPED
 from .timing import Timing
@@ -117,6 +117,8 @@ class GENGA_OT_apply_sheet(Operator, Koma):
         for layer, paths in zip(layers, parts):
             own = lambda curves: [curve for curve in curves if curve.data_path in paths]
             source = stepping.Source.of_curves(thing, own(take), self.first_frame, step)
+            if sheet.round:
+                source.ways = travel.ways(thing, source, sheet.first, sheet.first + sheet.round)
             stepping.write(own(target), source, *timing.of(layer.exposures))
         stepped.use_frame_range = True
         stepped.frame_start, stepped.frame_end = self.start, timing.frame(sheet.length)

@@ -1,28 +1,23 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Settings for animators, stored in the armature and saved with the file."""
 
-from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
+from contextlib import contextmanager
+
+import bpy
+from bpy.props import BoolProperty, CollectionProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
 from bpy.types import PropertyGroup
 
-from . import findings, words
-
-# Identifier, label, description, and the settings that a preset changes.
-PRESETS = (
-    ("twos", "On Twos", "One drawing every two koma", {"on": "2"}),
-    ("threes", "On Threes", "One drawing every three koma", {"on": "3"}),
-    ("modulated", "Ones to Threes", "Chosen for the motion of each interval", {"on": "1-3"}),
-    ("snappy", "Snappy", "Faster in the middle of a movement", {"snap": 0.5, "naka_nashi": 4.0}),
-    ("soft", "Soft", "Even spacing, no inbetweens left out", {"snap": 0.1, "naka_nashi": 0.0}),
-    ("few", "Few Genga", "Only genga that prevent a large error", {"rest": "keys.min_price=16"}),
-)
+from . import findings, presets, words
 
 # Whether several settings are being changed together, which must run only once.
 together = False
 
 
 def turned(knobs, context):
-    if knobs.live and not together:
-        findings.again(context.scene, knobs.id_data)
+    """Runs again after a setting of an armature or of one of its passages changed."""
+    thing = knobs.id_data
+    if thing.genga.live and not together:
+        findings.again(context, thing)
 
 
 def set_together(knobs, context, values):
@@ -37,25 +32,24 @@ def set_together(knobs, context, values):
     turned(knobs, context)
 
 
-class GengaKnobs(PropertyGroup):
-    """The settings of an armature."""
+@contextmanager
+def begun(thing, preset):
+    """Gives an armature the settings of a preset if nobody has touched them yet, and takes them back on an error."""
+    own = thing.genga
+    is_new = not own.own_id and not any(own.is_property_set(name) for name in presets.NAMES)
+    if is_new:
+        set_together(own, bpy.context, presets.values(preset, own))
+    try:
+        yield
+    except BaseException:
+        for name in presets.NAMES if is_new else ():
+            own.property_unset(name)
+        raise
 
-    genga: IntProperty(
-        name="Genga",
-        description="Number of key drawings, including first and last; 0 keeps the number found",
-        min=0,
-        soft_max=60,
-        update=turned,
-    )
-    drawings: FloatProperty(
-        name="Per Second",
-        description="Drawings per second, including inbetweens; 0 keeps the rate found",
-        min=0.0,
-        soft_max=12.0,
-        precision=1,
-        step=50,
-        update=turned,
-    )
+
+class Timed:
+    """Settings that a passage can have of its own."""
+
     on: EnumProperty(
         name="On",
         translation_context=words.CONTEXT,
@@ -98,10 +92,81 @@ class GengaKnobs(PropertyGroup):
         default=100.0 / 3.0,
         update=turned,
     )
+    rest: StringProperty(
+        name="More",
+        description="Other recipe settings by name, such as keys.min_price=8; keys.contacts=keys",
+        update=turned,
+    )
+
+
+class GengaPassage(Timed, PropertyGroup):
+    """A range of the take with settings of its own."""
+
+    start: IntProperty(name="First Frame", description="First frame of the passage", update=turned)
+    end: IntProperty(name="Last Frame", description="Last frame of the passage", update=turned)
+
+
+class GengaKnobs(Timed, PropertyGroup):
+    """The settings of an armature."""
+
+    own_id: StringProperty(options={"HIDDEN"}, description="The armature's own id, whatever its name")
+    told: StringProperty(options={"HIDDEN"}, description="Messages of the last run, one a line")
+
+    genga: IntProperty(
+        name="Genga",
+        description="Number of key drawings, including first and last; 0 keeps the number found",
+        min=0,
+        soft_max=60,
+        update=turned,
+    )
+    drawings: FloatProperty(
+        name="Per Second",
+        description="Drawings per second, including inbetweens; 0 keeps the rate found",
+        min=0.0,
+        soft_max=12.0,
+        precision=1,
+        step=50,
+        update=turned,
+    )
     feet: BoolProperty(
         name="Feet Held",
         description="Keep a foot in place while it stands in the take; hip and knee adapt",
         update=turned,
+    )
+    loop: BoolProperty(
+        name="Loop",
+        description="Repeat the take, whose last pose is its first; the body travels on",
+        update=turned,
+    )
+    cycles: IntProperty(
+        name="Rounds",
+        description="Number of rounds of a loop",
+        min=1,
+        soft_max=12,
+        default=1,
+        update=turned,
+    )
+    passages: CollectionProperty(type=GengaPassage)
+    passage: IntProperty(options={"HIDDEN"}, description="Selected row in the list of passages")
+    outside: EnumProperty(
+        name="Elsewhere",
+        description="What is shown outside of the passages",
+        items=(
+            ("TIMED", "On the Sheet", "Timed with the settings of the take"),
+            ("SOURCE", "As It Is", "A drawing of the take on every koma; the passages begin and end with its poses"),
+        ),
+        default="TIMED",
+        update=turned,
+    )
+    curve_error: FloatProperty(
+        name="Curve Error",
+        description="Largest distance between the motion of keys with curves and the take, in % of body height",
+        subtype="PERCENTAGE",
+        min=0.01,
+        max=100.0,
+        soft_max=10.0,
+        default=1.0,
+        precision=2,
     )
     rate: FloatProperty(
         name="Rate",
@@ -114,11 +179,6 @@ class GengaKnobs(PropertyGroup):
         precision=2,
         update=turned,
     )
-    rest: StringProperty(
-        name="More",
-        description="Other recipe settings by name, such as keys.min_price=8; keys.contacts=keys",
-        update=turned,
-    )
     live: BoolProperty(
         name="Live",
         description="Run again when a setting changes",
@@ -129,6 +189,11 @@ class GengaKnobs(PropertyGroup):
         description="Number the genga on the timeline",
         default=True,
         update=turned,
+    )
+    clean: BoolProperty(
+        name="Clean Capture",
+        description="Leave out inserted poses, such as a T-pose, at the ends of the take, and mend glitches of single frames",
+        default=True,
     )
     frames: EnumProperty(
         name="Frames",
@@ -150,18 +215,8 @@ class GengaKnobs(PropertyGroup):
         default="*twist*, *_end, *_end.*, ik_*, *ＩＫ*, 全ての親",
     )
     bone: IntProperty(options={"HIDDEN"}, description="Selected row in the list of bones")
-    pins: StringProperty(
-        name="Pins",
-        description="Frames that are always genga, such as 12, 40:contact. Keys of the take of type Extreme are also pinned",
-        update=turned,
-    )
-    forbid: StringProperty(
-        name="Forbid",
-        description="Frames without a genga nearby, such as 50, 60..66",
-        update=turned,
-    )
     only_pins: BoolProperty(
         name="Only Pins",
-        description="Use only pins and keys of type Extreme as genga",
+        description="Use only the markers “pin” and keys of type Extreme as genga",
         update=turned,
     )

@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Marks on the timeline: keys of type Extreme, selected frames, and markers for the genga."""
+"""Marks on the timeline: markers that pin and forbid, keys of type Extreme, selected frames, numbers of the genga."""
 
 import bisect
 
 import numpy as np
 
-from . import stepping
-from .take import BEGINS, PLACES, STEPPED
+from . import pins, stepping
+from .refused import Refused
+from .take import BEGINS, OWNER, PLACES, STEPPED
 
 
 def marked(take):
@@ -22,18 +23,74 @@ def marked(take):
     return sorted(frames)
 
 
-def chosen(context):
-    """Returns the take's frames of the selected keys, or the current frame."""
-    thing = context.active_object
-    animation = thing.animation_data
-    action = animation.action if animation else None
-    slot = getattr(animation, "action_slot", None)
-    frames = set()
-    if action is not None:
-        for curve in stepping.curves(action, slot):
-            frames |= {round(point.co.x) for point in curve.keyframe_points if point.select_control_point}
-    frames = frames or {context.scene.frame_current}
-    return sorted({of_take(action, frame) for frame in frames})
+def of(scene, thing):
+    """Returns the markers that pin and forbid for an armature: its own, and those that a person made for all."""
+    is_its = lambda marker: marker.get(OWNER, "") in ("", thing.genga.own_id)
+    return [marker for marker in scene.timeline_markers if pins.is_mark(marker.name) and is_its(marker)]
+
+
+def read(scene, thing):
+    """Returns the corrections that an armature's markers say."""
+    return pins.read([(marker.name, marker.frame) for marker in of(scene, thing)])
+
+
+def add(scene, thing, named):
+    """Adds markers for an armature where there are none: pairs of name and frame."""
+    there = {(pins.first_word(marker.name), marker.frame) for marker in of(scene, thing)}
+    for name, frame in named:
+        if (pins.first_word(name), frame) not in there:
+            make(scene, thing, name, frame)
+
+
+def make(scene, thing, name, frame):
+    """Makes a marker for an armature. It is not selected, so that a person selects only what is meant."""
+    marker = scene.timeline_markers.new(name, frame=frame)
+    marker[OWNER], marker.select = thing.genga.own_id, False
+
+
+def clear(scene, thing):
+    """Removes all markers that pin or forbid for an armature."""
+    for marker in of(scene, thing):
+        scene.timeline_markers.remove(marker)
+
+
+def chosen(context, thing):
+    """Returns the take's frames to mark: of the selected keys in the dope sheet, else the current frame."""
+    frames = selected(thing) if is_in_dope_sheet(context) else set()
+    action = played(thing)
+    return sorted({of_take(action, frame) for frame in frames or {context.scene.frame_current}})
+
+
+def is_in_dope_sheet(context):
+    return context.area is not None and context.area.type == "DOPESHEET_EDITOR"
+
+
+def played(thing):
+    return thing.animation_data.action if thing.animation_data else None
+
+
+def selected(thing):
+    """Returns the frames of the selected keys of what an object plays."""
+    action, frames = played(thing), set()
+    slot = getattr(thing.animation_data, "action_slot", None)
+    for curve in stepping.curves(action, slot) if action else ():
+        frames |= {round(point.co.x) for point in curve.keyframe_points if point.select_control_point}
+    return frames
+
+
+def passage(context, thing):
+    """Returns the first and the last frame of the marked range: between selected markers, of the preview range, or of
+    the selected keys."""
+    scene = context.scene
+    markers = [marker.frame for marker in scene.timeline_markers if marker.select]
+    if len(set(markers)) > 1:
+        return min(markers), max(markers)
+    if scene.use_preview_range:
+        return scene.frame_preview_start, scene.frame_preview_end
+    keys = selected(thing) if is_in_dope_sheet(context) else ()
+    if len(keys) > 1:
+        return min(keys), max(keys)
+    raise Refused("no range is marked: set a preview range (P in the timeline), or select two markers")
 
 
 def of_take(action, frame):
@@ -44,17 +101,16 @@ def of_take(action, frame):
     return round(action[PLACES][max(at, 0)])
 
 
-def set_markers(scene, thing, numbered):
-    """Replaces an object's timeline markers by markers for its genga."""
-    remove_markers(scene, thing)
+def set_numbers(scene, thing, numbered):
+    """Replaces an object's timeline markers with numbers by those of its genga."""
+    remove_numbers(scene, thing)
     for number, frame in numbered:
-        scene.timeline_markers.new(f"{number} {thing.name}", frame=frame)
+        make(scene, thing, f"{number} {thing.name}", frame)
 
 
-def remove_markers(scene, thing):
+def remove_numbers(scene, thing):
     def is_its(marker):
-        number, _, name = marker.name.partition(" ")
-        return name == thing.name and number.isdigit()
+        return marker.get(OWNER) == thing.genga.own_id and marker.name.partition(" ")[0].isdigit()
 
     for marker in [marker for marker in scene.timeline_markers if is_its(marker)]:
         scene.timeline_markers.remove(marker)

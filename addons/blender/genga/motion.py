@@ -5,6 +5,9 @@ import numpy as np
 
 from .refused import Refused, engine
 
+# Share of body height by which a pose that was not mended may differ.
+SAME = 1e-6
+
 
 def clip(bones, chosen, poses, rest, rate, name):
     """Builds a clip of the chosen bones.
@@ -26,6 +29,20 @@ def clip(bones, chosen, poses, rest, rate, name):
         rate=rate,
         name=name,
     )
+
+
+def cleaned(whole):
+    """Returns a clip without inserted poses and glitches, and the frames whose pose was mended."""
+    clip = whole.cleaned()
+    if not any(told["code"] == "W_GLITCH" for told in clip.warnings):
+        return clip, frozenset()
+    off = clip.distances(within(whole, clip.first, clip.first + len(clip)))
+    return clip, frozenset(int(at) + clip.first for at in np.flatnonzero(off > SAME))
+
+
+def within(clip, first, past):
+    """Returns the frames of a clip from `first` up to, not including, `past`."""
+    return clip.cleaned(keep_lead_in=True, keep_glitches=True, trim=(first, past))
 
 
 def turns(matrices):

@@ -1,77 +1,91 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A person's corrections: pinned and forbidden frames. Independent of Blender.
+"""A person's corrections: pinned and forbidden frames, as the names of markers say. Independent of Blender.
 
-They use the program's notation, `40:contact` and `50..60`, with frames of Blender's timeline.
+A marker `pin` or `pin contact` pins its frame. A marker `forbid` forbids its frame, and `forbid from` with the next
+`forbid to` all frames from one to the other.
 """
 
-import re
+from typing import NamedTuple
 
 from .refused import Refused
 
-PIN = re.compile(r"\s*(-?\d+)\s*(:.*)?")
-FORBIDDEN = re.compile(r"\s*(-?\d+)\s*(?:\.\.\s*(-?\d+)\s*)?")
+# First words of such markers.
+PIN, FORBID = ("pin", "固定"), ("forbid", "禁止")
+FROM, TO = ("from", "から"), ("to", "まで")
 
 
-def words(text):
-    return [word for word in text.split(",") if word.strip()]
+class Corrections(NamedTuple):
+    """Pins with the names of their keys, and ranges of forbidden frames, whose end is not forbidden."""
+
+    pins: tuple
+    forbidden: tuple
+
+    def with_pins(self, frames):
+        """Adds pins without a name."""
+        there = {frame for frame, _ in self.pins}
+        return Corrections((*self.pins, *((frame, "") for frame in frames if frame not in there)), self.forbidden)
+
+    def of_clip(self, start):
+        """Returns both in the program's notation. `start` is Blender's frame for the clip's frame 0."""
+        pins = [f"{frame - start}:{name}" if name else f"{frame - start}" for frame, name in self.pins]
+        return pins, [f"{begin - start}..{past - start}" for begin, past in self.forbidden]
 
 
-def pins(text, start):
-    """Converts pins to frames of the clip. `start` is Blender's frame for the clip's frame 0."""
-    return [f"{int(found[1]) - start}{(found[2] or '').rstrip()}" for found in read(PIN, text, "a pin", "40:contact")]
+def is_mark(name):
+    """Reports whether a marker of this name pins or forbids."""
+    return first_word(name) in (*PIN, *FORBID)
 
 
-def forbidden(text, start):
-    """Converts forbidden frames to frames of the clip. Ranges exclude their last frame."""
+def first_word(name):
+    return name.strip().partition(" ")[0].casefold()
+
+
+def read(marks):
+    """Reads markers: pairs of name and frame."""
+    pins, forbidden, begin = [], [], None
+    for name, frame in sorted(marks, key=lambda mark: mark[1]):
+        word, rest = first_word(name), name.strip().partition(" ")[2].strip()
+        if word in PIN:
+            pins.append((frame, rest))
+        elif word not in FORBID:
+            continue
+        elif rest.casefold() in FROM and begin is None:
+            begin = frame
+        elif rest.casefold() in TO and begin is not None:
+            forbidden.append((begin, frame + 1))
+            begin = None
+        elif not rest:
+            forbidden.append((frame, frame + 1))
+        else:
+            raise Refused(f"marker “{name}” on frame {frame} {fault(rest, begin)}")
+    if begin is not None:
+        raise Refused(f"marker “forbid from” on frame {begin} has no “forbid to” behind it")
+    return Corrections(tuple(pins), tuple(forbidden))
+
+
+def fault(rest, begin):
+    """Says what is wrong with a marker that forbids."""
+    if rest.casefold() in FROM:
+        return f"follows another one on frame {begin} that has no “forbid to”"
+    if rest.casefold() in TO:
+        return "has no “forbid from” in front of it"
+    return "is not understood: name it forbid, forbid from or forbid to"
+
+
+def forbidding(frames):
+    """Returns the markers that forbid some frames: pairs of name and frame."""
     made = []
-    for found in read(FORBIDDEN, text, "a forbidden frame", "50 or 50..60"):
-        ends = [str(int(end) - start) for end in found.groups() if end is not None]
-        made.append("..".join(ends))
+    for begin, last in runs(frames):
+        made += [("forbid", begin)] if begin == last else [("forbid from", begin), ("forbid to", last)]
     return made
 
 
-def read(pattern, text, what, such_as):
-    found = [(word, pattern.fullmatch(word)) for word in words(text)]
-    for word, match in found:
-        if match is None:
-            raise Refused(f"{what} is a frame, such as {such_as}, found “{word.strip()}”")
-    return [match for _, match in found]
-
-
-def frames(text):
-    """Returns the pinned frames in a text, without names."""
-    return {int(found[1]) for found in read(PIN, text, "a pin", "40:contact")}
-
-
-def with_pins(text, more):
-    """Adds pins at more frames to a text. Existing pins keep their names."""
-    there = frames(text)
-    return joined([*words(text), *(str(frame) for frame in sorted(more) if frame not in there)])
-
-
-def with_forbidden(text, more):
-    """Adds forbidden frames to a text, runs of them as ranges."""
-    return joined([*words(text), *(word for word in runs(more) if word not in map(str.strip, words(text)))])
-
-
-def without(text, gone):
-    """Removes the pins at some frames from a text."""
-    return joined(word for word in words(text) if int(PIN.fullmatch(word)[1]) not in gone)
-
-
-def joined(parts):
-    return ", ".join(part.strip() for part in parts)
-
-
 def runs(numbers):
-    """Formats frames in the program's notation: single frames, and runs as `50..53`, which excludes 53."""
-    begin = last = None
+    """Returns the runs of consecutive numbers, each as its first and its last."""
     made = []
-    for number in [*sorted(numbers), None]:
-        if last is not None and number != last + 1:
-            made.append(str(begin) if begin == last else f"{begin}..{last + 1}")
-            begin = number
-        elif begin is None:
-            begin = number
-        last = number
+    for number in sorted(set(numbers)):
+        if made and number == made[-1][1] + 1:
+            made[-1] = (made[-1][0], number)
+        else:
+            made.append((number, number))
     return made

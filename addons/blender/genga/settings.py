@@ -13,29 +13,44 @@ def share(percent):
     return f"{number(percent):g}%"
 
 
-def recipe(knobs, marked, start):
-    """Builds the recipe from the settings and corrections. `marked` are frames with keys of type Extreme."""
-    from . import pins
-
+def recipe(knobs, corrections, start):
+    """Builds the recipe from the settings and corrections. `start` is Blender's frame for the clip's frame 0."""
     made = engine().Recipe()
     made.update(
         {
             "rate": number(knobs.rate),
-            "spacing.on": knobs.on,
-            "spacing.weight": number(knobs.snap),
-            "omission.naka_nashi": share(knobs.naka_nashi),
-            "omission.koma_dori": share(knobs.koma_dori),
+            **timed(knobs),
             "feet": "held" if knobs.feet else "free",
+            "loop": knobs.loop,
+            "cycles": knobs.cycles if knobs.loop else 1,
         }
     )
+    passages = [passage(own, start) for own in knobs.passages]
+    if passages:
+        made.update({"passages": passages, "outside": knobs.outside.lower()})
     for name, value in rest(knobs.rest):
         made.update({name: value})
-    made.correct(
-        pins=pins.pins(pins.with_pins(knobs.pins, marked), start),
-        forbid=pins.forbidden(knobs.forbid, start),
-        only_pins=knobs.only_pins,
-    )
+    pins, forbidden = corrections.of_clip(start)
+    made.correct(pins=pins, forbid=forbidden, only_pins=knobs.only_pins)
     return made
+
+
+def timed(knobs):
+    """Returns the settings that a passage can have of its own."""
+    return {
+        "spacing.on": knobs.on,
+        "spacing.weight": number(knobs.snap),
+        "omission.naka_nashi": share(knobs.naka_nashi),
+        "omission.koma_dori": share(knobs.koma_dori),
+    }
+
+
+def passage(own, start):
+    """Returns a passage of a recipe."""
+    begin, past = max(own.start - start, 0), own.end - start + 1
+    if past <= begin:
+        raise Refused(f"the passage from {own.start} to {own.end} has no frame of the take, which begins on {start}")
+    return {"frames": [begin, past], **timed(own), **dict(rest(own.rest))}
 
 
 def number(value):

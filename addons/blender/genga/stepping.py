@@ -4,6 +4,7 @@
 from itertools import groupby
 
 import bpy
+import numpy as np
 from mathutils import Euler, Quaternion
 
 KEYFRAME_TYPES = {"genga": "EXTREME", "end": "EXTREME", "inbetween": "BREAKDOWN"}
@@ -40,7 +41,9 @@ def new_curve(action, slot, channel, group):
 class Source:
     """Evaluates the take's channels at a place. Interpolates rotations by slerp, other values linearly.
 
-    `channels` are data paths with their indices. `value` returns a channel's value at a whole source frame.
+    `channels` are data paths with their indices. `value` returns a channel's value at a whole source frame. `mended` are
+    frames with a glitch of the tracker, whose pose is taken from the frames beside them. `ways` are how far channels get
+    in a round of a loop.
     """
 
     def __init__(self, owner, channels, value):
@@ -48,6 +51,7 @@ class Source:
         grouped = groupby(sorted(channels), path)
         self.groups = [(rotation(owner, path), list(group)) for path, group in grouped]
         self.value = value
+        self.mended, self.ways = frozenset(), {}
 
     @classmethod
     def of_curves(cls, owner, action_curves, first_frame, step):
@@ -66,9 +70,33 @@ class Source:
     def pose(self, exposure, near):
         """Returns the values of all curves for an exposure. Angles are those nearest to the pose before."""
         if exposure.between is None:
-            return self._at(exposure.frame, near)
-        before, after = (self._at(place, near) for place in exposure.between)
-        return self._blend(before, after, exposure.share, near)
+            pose = self._at(exposure.frame, near)
+        else:
+            before, after = (self._at(place, near) for place in exposure.between)
+            pose = self._blend(before, after, exposure.share, near)
+        return self._further(pose, exposure.round) if exposure.round else pose
+
+    def channels(self):
+        """Returns the channels in the order of a pose's values."""
+        return [channel for _, group in self.groups for channel in group]
+
+    def rows(self, frames):
+        """Returns the values of all channels on whole frames, one row each. Angles and quaternions go on without jumps."""
+        table = np.array([[value for values in self._frame(frame) for value in values] for frame in frames])
+        begin = 0
+        for mode, group in self.groups:
+            own = table[:, begin : begin + len(group)]
+            if mode == "QUATERNION":
+                own[1:] *= np.cumprod(np.where((own[1:] * own[:-1]).sum(axis=1) < 0.0, -1.0, 1.0))[:, None]
+            elif mode is not None:
+                own[:] = np.unwrap(own, axis=0)
+            begin += len(group)
+        return table
+
+    def _further(self, pose, rounds):
+        """Moves a pose on by a loop's way of some rounds."""
+        way = lambda channel: rounds * self.ways.get(channel, 0.0)
+        return [[value + way(channel) for channel, value in zip(group, own)] for (_, group), own in zip(self.groups, pose)]
 
     def _at(self, place, near):
         before = place // 1
@@ -78,6 +106,11 @@ class Source:
         return self._blend(pose, self._frame(before + 1), place - before, near)
 
     def _frame(self, frame):
+        if frame in self.mended:
+            before, after = frame - 1, frame + 1
+            while after in self.mended:
+                after += 1
+            return self._blend(self._frame(before), self._frame(after), 1.0 / (after - before), None)
         return [[self.value(channel, frame) for channel in group] for _, group in self.groups]
 
     def _blend(self, before, after, share, near):
@@ -138,8 +171,7 @@ def write(target, source, exposures, frames, drawn=as_taken):
     for exposure in exposures:
         near = source.pose(exposure, near)
         rows.append([value for values in drawn(source, exposure, near) for value in values])
-    channels = [channel for _, group in source.groups for channel in group]
-    columns = {channel: at for at, channel in enumerate(channels)}
+    columns = {channel: at for at, channel in enumerate(source.channels())}
     types = [type_of(exposure) for exposure in exposures]
     for curve in target:
         at = columns[curve.data_path, curve.array_index]
@@ -148,15 +180,36 @@ def write(target, source, exposures, frames, drawn=as_taken):
 
 def put(curve, places, types):
     """Replaces a curve's keys and modifiers by constant keys. `places` alternates frame and value."""
+    put_keys(curve, places, "CONSTANT", types)
+    curve.update()
+
+
+def put_curve(curve, frames, values, tangents, types):
+    """Replaces a curve's keys and modifiers by keys with Bézier curves, or straight lines if there are no `tangents`.
+    These are changes per frame."""
+    put_keys(curve, np.stack([frames, values], axis=1).ravel(), "LINEAR" if tangents is None else "BEZIER", types)
+    if tangents is not None:
+        points, thirds = curve.keyframe_points, np.diff(frames) / 3.0
+        for side, lengths in (("left", -np.append(thirds[:1], thirds)), ("right", np.append(thirds, thirds[-1:]))):
+            points.foreach_set(f"handle_{side}_type", [number(f"handle_{side}_type", "FREE")] * len(types))
+            # With handles a third of the way, time is even along the curve, which then is a cubic of time.
+            points.foreach_set(f"handle_{side}", np.stack([frames + lengths, values + lengths * tangents], axis=1).ravel())
+    curve.update()
+
+
+def put_keys(curve, places, interpolation, types):
+    """Replaces a curve's keys and modifiers. `places` alternates frame and value."""
     while curve.modifiers:
         curve.modifiers.remove(curve.modifiers[0])
     points = curve.keyframe_points
     points.clear()
     points.add(len(types))
     points.foreach_set("co", places)
-    points.foreach_set("interpolation", [number("interpolation", "CONSTANT")] * len(types))
+    points.foreach_set("interpolation", [number("interpolation", interpolation)] * len(types))
     points.foreach_set("type", [number("type", name) for name in types])
-    curve.update()
+    # So that a person selects only what is meant.
+    for part in ("select_control_point", "select_left_handle", "select_right_handle"):
+        points.foreach_set(part, [False] * len(types))
 
 
 def number(name, word):

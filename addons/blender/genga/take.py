@@ -8,8 +8,12 @@ from .stepping import curves
 STEPPED = "genga_take"
 # The take's action; the first frame of each drawing, and the frame of the take that it shows.
 SOURCE, BEGINS, PLACES = "genga_source", "genga_begins", "genga_places"
-# The name of the object that the action is for.
+# The id of the armature that an action or a marker is for.
 OWNER = "genga_object"
+# What a made action holds: the drawings of the sheet, or few keys with curves.
+KIND, KOMA, KEYS = "genga_kind", "koma", "keys"
+# The take's slot, by its handle.
+SLOT = "genga_slot"
 
 
 class Take:
@@ -70,7 +74,7 @@ def played(animation):
         if source is None and not strips(animation):
             raise Refused(f"{action.name} is stepped, and its take is gone: assign a take to the object")
         if source is not None and slot is not None:
-            slot = next((own for own in source.slots if own.identifier == slot.identifier), None)
+            slot = next((own for own in source.slots if own.handle == action.get(SLOT)), None)
         return source, slot
     return action, slot
 

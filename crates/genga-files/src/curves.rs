@@ -1,5 +1,7 @@
 //! The take as few keys with smooth curves between them (キーとカーブ): the other half of a stepped sheet.
 
+mod channels;
+mod distance;
 mod fit;
 mod samples;
 mod spline;
@@ -14,6 +16,8 @@ use genga::motion::Clip;
 use genga::sheet::Sheet;
 use genga::time::Frame;
 
+pub use channels::tangents;
+pub use distance::distances;
 pub(crate) use fit::{GIRTH, Key, KeyedTake, Track, body_height, keys_of, turn_between};
 pub(crate) use samples::Path;
 pub(crate) use spline::Shape;

@@ -51,7 +51,7 @@ pub use action_table::actions_csv;
 pub use after_effects::time_remap;
 pub use column_table::columns_csv;
 pub use comparison_table::comparison_csv;
-pub use curves::{CurveErrors, Curves};
+pub use curves::{CurveErrors, Curves, distances, tangents};
 pub use cut::{Cut, Sink};
 pub use cycle_table::cycles_csv;
 pub use drawing_table::{Drawings, Rows};

@@ -197,9 +197,9 @@ fn curves(take: &Take, layers: &[Vec<Key>], layer_of: &[usize], straight: &[bool
 }
 
 /// Measures how far a body is off the take.
-struct Ruler {
+pub(super) struct Ruler {
     /// Body height, in the file's unit.
-    height: f64,
+    pub(super) height: f64,
     girth: f64,
     reaches: Vec<f64>,
     /// The joint of each tip.
@@ -211,7 +211,7 @@ struct Ruler {
 }
 
 impl Ruler {
-    fn new(clip: &Clip, layer_of: &[usize], places: RangeInclusive<f64>) -> Self {
+    pub(super) fn new(clip: &Clip, layer_of: &[usize], places: RangeInclusive<f64>) -> Self {
         let skeleton = clip.skeleton();
         let mut moved_by: Vec<Vec<usize>> = Vec::with_capacity(skeleton.len());
         for (joint, data) in skeleton.iter() {
@@ -270,7 +270,7 @@ pub(crate) fn turn_between(a: DQuat, b: DQuat) -> f64 {
 }
 
 /// The bodies of the take and of the curves on one frame.
-struct Bodies<'a> {
+pub(super) struct Bodies<'a> {
     poser: Poser<'a>,
     pose: Pose,
     taken: Body,
@@ -279,7 +279,7 @@ struct Bodies<'a> {
 }
 
 impl<'a> Bodies<'a> {
-    fn new(clip: &'a Clip) -> Self {
+    pub(super) fn new(clip: &'a Clip) -> Self {
         let body = Body::new(clip.skeleton());
         let pose = Pose::rest(clip.skeleton());
         Self { poser: Poser::new(clip), pose, taken: body.clone(), made: body, spans: Vec::new() }
@@ -302,8 +302,14 @@ impl<'a> Bodies<'a> {
         self.made.place(&self.pose);
     }
 
+    /// Places the take on a frame, and the other body in a pose.
+    pub(super) fn place_beside(&mut self, frame: Frame, pose: &Pose) {
+        self.taken.place(self.poser.frame(frame));
+        self.made.place(pose);
+    }
+
     /// Returns the mean distance of the joints, and raises the largest of each layer.
-    fn compare(&self, ruler: &Ruler, by_layer: &mut [f64]) -> f64 {
+    pub(super) fn compare(&self, ruler: &Ruler, by_layer: &mut [f64]) -> f64 {
         let points = self.taken.points().iter().zip(self.made.points());
         let off = points.map(|(taken, made)| taken.distance(*made));
         let turns = self.taken.rotations().iter().zip(self.made.rotations());

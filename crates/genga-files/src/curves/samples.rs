@@ -33,7 +33,12 @@ pub(super) struct Samples<'a> {
     values: &'a [DVec4],
 }
 
-impl Samples<'_> {
+impl<'a> Samples<'a> {
+    /// Wraps values that are independent numbers, the first on frame 0.
+    pub(super) fn of_numbers(values: &'a [DVec4]) -> Self {
+        Self { path: Path::Translation, first: 0, values }
+    }
+
     /// Samples a place, between two frames as the clip's poses are.
     pub(super) fn at(self, place: f64) -> DVec4 {
         let place = (place - self.first as f64).clamp(0.0, (self.values.len() - 1) as f64);

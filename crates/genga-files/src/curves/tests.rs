@@ -192,3 +192,17 @@ fn each_layer_of_a_sample_keeps_its_genga_and_the_body_stays_close() {
         assert_eq!(notes.len(), usize::from(keyed.added() > 0));
     }
 }
+
+#[test]
+fn motions_are_measured_frame_by_frame() {
+    let still = arm(12, |_, _| 0.0);
+    assert_eq!(distances(&still, &still).unwrap(), [0.0; 12]);
+    let shifted = arm(12, |column, frame| f64::from(column == 0 && frame == 5));
+    let off = distances(&still, &shifted).unwrap();
+    assert!(off.iter().enumerate().all(|(frame, off)| (*off > 0.0) == (frame == 5)), "{off:?}");
+    let higher = arm(12, |column, frame| 2.0 * f64::from(column == 0 && frame == 5));
+    let twice = distances(&still, &higher).unwrap()[5];
+    assert!((twice - 2.0 * off[5]).abs() < 1e-12, "{twice} {}", off[5]);
+    let error = distances(&still, &arm(11, |_, _| 0.0)).unwrap_err().to_string();
+    assert!(error.contains("the same joints and frames"), "{error}");
+}

@@ -1,0 +1,36 @@
+//! Removes or mends capture artefacts.
+
+use std::sync::Arc;
+
+use genga::motion::clean::Cleaning;
+use pyo3::prelude::*;
+
+use crate::clip::Clip;
+use crate::error::raised;
+use crate::work;
+
+/// Builds the cleaning that Python's arguments describe.
+pub fn cleaning(keep_lead_in: bool, keep_glitches: bool, trim: Option<(usize, usize)>) -> Cleaning {
+    Cleaning { keep_lead_in, keep_glitches, trim: trim.map(|(begin, end)| begin..end) }
+}
+
+#[pymethods]
+impl Clip {
+    /// Returns the clip without inserted poses at its ends, and with single-frame glitches mended, as `genga.read` does
+    /// with a file. Frames keep their numbers; `first` is that of the motion. The warnings say what was changed.
+    #[pyo3(signature = (*, keep_lead_in=false, keep_glitches=false, trim=None))]
+    fn cleaned(
+        &self,
+        py: Python<'_>,
+        keep_lead_in: bool,
+        keep_glitches: bool,
+        trim: Option<(usize, usize)>,
+    ) -> PyResult<Self> {
+        let motion = Arc::clone(&self.motion);
+        let made = work::done(py, move |_| {
+            cleaning(keep_lead_in, keep_glitches, trim).apply((*motion).clone())
+        })?;
+        let (motion, notes) = made.map_err(|error| raised(py, error))?;
+        Ok(Self::new(Arc::new(motion), self.file.clone(), notes))
+    }
+}
