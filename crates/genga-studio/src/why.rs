@@ -82,7 +82,7 @@ fn japanese(why: &Why) -> String {
         }
     }
     if why.hold_set {
-        reasons.push("長さは手動で指定".into());
+        reasons.push("止めの長さは手動".into());
     }
     reasons.join("、")
 }
