@@ -18,6 +18,7 @@ fn a_change_says_what_it_made_until_the_next_one() {
     table.harness.get_by_label("TV acting").click();
     table.harness.run();
     assert!(table.shows("13 to "), "it has fewer genga");
+    table.write_to_look_at("difference");
     table.tap(Modifiers::NONE, Key::ArrowRight);
     assert!(table.shows("13 to "), "whoever only looks round still sees it");
     table.tap(Modifiers::NONE, Key::Escape);

@@ -102,7 +102,7 @@ fn in_japanese_with_the_map_it_looks_as_it_did() {
     let mut table =
         Table::plain(&sample("kick.bvh"), Arc::default(), Language::Japanese, Theme::Light);
     table.press_all(&[Key::ArrowDown; 7]);
-    table.press_all(&[Key::H]);
+    table.press_all(&[Key::Num7, Key::Num8, Key::H]);
     table.harness.run_steps(8);
     table.rest();
     compare("studio-map", &table.picture());

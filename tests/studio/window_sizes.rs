@@ -69,7 +69,7 @@ impl Table {
         faults
     }
 
-    fn write_to_look_at(&mut self, name: &str) {
+    pub(crate) fn write_to_look_at(&mut self, name: &str) {
         if let Some(folder) = std::env::var_os("GENGA_LOOK") {
             let path = std::path::Path::new(&folder).join(format!("{name}.png"));
             crate::pictures::pixmap(&self.picture()).save_png(path).unwrap();
@@ -158,4 +158,22 @@ fn the_list_of_keys_fits_and_is_turned_by_the_keyboard() {
         let is_seen = table.window().expand(1.0).contains_rect(list);
         (!is_seen).then(|| format!("the list is {list}")).into_iter().collect()
     });
+}
+
+#[test]
+fn what_is_said_before_a_clip_is_open_fits() {
+    for window in WINDOWS {
+        for language in [Language::English, Language::Japanese] {
+            let theme = if language == Language::English { Theme::Light } else { Theme::Dark };
+            let mut table = Table::in_window(window, Arc::default(), language, theme);
+            table.harness.run();
+            let faults = table.faults();
+            assert!(faults.is_empty(), "{}: {}", name_of(window, language), faults.join("\n"));
+            let first = table.harness.query_by_label("Choose a file…");
+            let first =
+                first.or_else(|| table.harness.query_by_label("ファイルを選ぶ…")).unwrap().rect();
+            assert!(table.window().contains_rect(first), "{first}");
+            table.write_to_look_at(&format!("welcome-{}", name_of(window, language)));
+        }
+    }
 }

@@ -37,7 +37,7 @@ impl Counts {
 
     /// The most genga that have room on the sheet.
     pub(super) fn most_genga(&self, on: On) -> usize {
-        self.koma / on.least.min(2).max(1) + 1
+        self.koma / on.least.clamp(1, 2) + 1
     }
 
     /// Writes what no goal says in words, with its change since `before`.

@@ -25,7 +25,7 @@ use genga::recipe::{Frames, Recipe};
 
 /// Width from which presets stand side by side, in points, and the room they take then and else.
 const WIDE: f32 = 1100.0;
-const PRESETS_WIDE: f32 = 232.0;
+const PRESETS_WIDE: f32 = 290.0;
 const PRESETS_NARROW: f32 = 112.0;
 /// Height of the row, and the gap between goals, in points.
 const HEIGHT: f32 = 46.0;

@@ -22,10 +22,11 @@ use super::time_axis::Window;
 use super::view_state::Shown;
 use super::viewport::Orbit;
 
-/// Least and greatest height of the strip in points, and its height in low and in high windows.
+/// Least and greatest height of the strip in points, and its height in low, usual and high windows.
 pub(super) const HEIGHTS: std::ops::RangeInclusive<f32> = 68.0..=260.0;
 const LOW: f32 = 96.0;
-const HIGH: f32 = 132.0;
+const USUAL: f32 = 128.0;
+const HIGH: f32 = 156.0;
 
 /// State of the strip: the part of the sheet in view, and what the pointer does.
 #[derive(Debug, Clone, Default)]
@@ -43,7 +44,11 @@ pub(super) struct Strip {
 impl Strip {
     /// Usual height of the strip in a window of a height.
     pub(super) fn usual_height(window: f32) -> f32 {
-        if window < 560.0 { LOW } else { HIGH }
+        match window {
+            ..560.0 => LOW,
+            ..780.0 => USUAL,
+            _ => HIGH,
+        }
     }
 
     /// Goes to the action at the play head, or to the whole.

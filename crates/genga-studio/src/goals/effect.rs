@@ -5,7 +5,7 @@ use super::{Goal, Seen};
 
 /// Describes what a goal has come to.
 pub(super) fn of(goal: Goal, seen: &Seen<'_>) -> String {
-    let (value, is_japanese) = (in_short(goal, seen), seen.words.is_japanese());
+    let (value, is_japanese) = (value(goal, seen), seen.words.is_japanese());
     match (goal, is_japanese) {
         (Goal::Genga, true) => format!("{value}枚 · 毎秒{}", tenths(rate(seen))),
         (Goal::Genga, false) => format!("{value} · {} a second", tenths(rate(seen))),
@@ -18,8 +18,16 @@ pub(super) fn of(goal: Goal, seen: &Seen<'_>) -> String {
     }
 }
 
-/// The value of a goal, with its change.
+/// Describes it where there is little room.
 pub(super) fn in_short(goal: Goal, seen: &Seen<'_>) -> String {
+    match goal {
+        Goal::Snap => format!("{} · {}×", name(&SNAP, seen), value(goal, seen)),
+        Goal::Genga | Goal::Pace => value(goal, seen),
+    }
+}
+
+/// The value of a goal, with its change.
+fn value(goal: Goal, seen: &Seen<'_>) -> String {
     let [before, now] = [seen.before, seen.counts].map(|counts| match goal {
         Goal::Genga => counts.genga.to_string(),
         Goal::Pace => tenths(counts.a_second(counts.drawings)),

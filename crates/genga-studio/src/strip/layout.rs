@@ -14,7 +14,7 @@ const TRACK: f32 = 11.0;
 /// Room at both sides, so that the first and the last figure are whole, in points.
 const SIDE: f32 = 22.0;
 /// Width of a figure as a share of its height, and the least.
-const SLENDER: f32 = 0.62;
+const SLENDER: f32 = 0.52;
 const LEAST: f32 = 22.0;
 /// Distance within which the end of a hold is grabbed, and the least length of one that can be, in points.
 const NEAR_END: f32 = 4.0;
