@@ -12,8 +12,8 @@ use genga::edits::{LayerEdits, Pin};
 use genga::keys::{Key, Origin};
 use genga::time::Frame;
 
-/// Height of the list from which it is scrolled, in points.
-const HIGHEST: f32 = 132.0;
+/// Height of the list in points; more is scrolled.
+const HIGH: f32 = 132.0;
 
 /// Shows the list at the lower edge, so that what is above stays in place.
 pub(super) fn below(ui: &mut Ui, shown: &Shown<'_>, commands: &mut Vec<Command>) {
@@ -21,8 +21,8 @@ pub(super) fn below(ui: &mut Ui, shown: &Shown<'_>, commands: &mut Vec<Command>)
     if count_all(shown) == 0 && !edits.again {
         return;
     }
-    Panel::bottom("corrections").resizable(false).show(ui, |ui| {
-        ScrollArea::vertical().id_salt("corrections").max_height(HIGHEST).show(ui, |ui| {
+    Panel::bottom("corrections").exact_size(HIGH).show(ui, |ui| {
+        ScrollArea::vertical().id_salt("corrections").auto_shrink(false).show(ui, |ui| {
             show(ui, shown, commands);
             focus::bring_into_view(ui);
         });

@@ -1,6 +1,6 @@
 //! Where an export goes (届け先): a card for each program or person, with what it writes and the next step there.
 
-use egui::{Button, Grid, Ui, vec2};
+use egui::{FontId, Grid, Response, Role, Sense, StrokeKind, Ui, WidgetInfo, vec2};
 
 use super::export_settings::Order;
 use super::words::Words;
@@ -8,7 +8,7 @@ use genga_files::FORMATS;
 
 /// Size of a card in points.
 const WIDE: f32 = 172.0;
-const HIGH: f32 = 58.0;
+const HIGH: f32 = 62.0;
 const GAP: f32 = 6.0;
 
 /// A place that results go to.
@@ -135,9 +135,7 @@ pub(super) fn show(ui: &mut Ui, order: &mut Order, words: Words) {
         for (at, destination) in all.enumerate() {
             let name = words.say(destination.english, destination.japanese);
             let writes = words.say(destination.writes, destination.writes_japanese);
-            let card = Button::selectable(destination.is_of(order), format!("{name}\n{writes}"));
-            let card = ui.add_sized(vec2(WIDE, HIGH), card.wrap());
-            if card.accessible_name(name).clicked() {
+            if card(ui, (name, writes), destination.is_of(order)).clicked() {
                 order.formats = destination.ordered();
             }
             if at % columns == columns - 1 {
@@ -145,6 +143,26 @@ pub(super) fn show(ui: &mut Ui, order: &mut Order, words: Words) {
             }
         }
     });
+}
+
+/// A button with a name and what it writes.
+fn card(ui: &mut Ui, (name, writes): (&str, &str), is_on: bool) -> Response {
+    let (rect, response) = ui.allocate_exact_size(vec2(WIDE, HIGH), Sense::click());
+    let visuals = ui.style().interact_selectable(&response, is_on);
+    let faint = if is_on { visuals.text_color() } else { ui.visuals().weak_text_color() };
+    let painter = ui.painter_at(rect);
+    painter.rect(rect, 5.0, visuals.weak_bg_fill, visuals.bg_stroke, StrokeKind::Inside);
+    let inside = rect.shrink2(vec2(9.0, 6.0));
+    let mut at = inside.min;
+    for (text, size, color) in [(name, 13.5, visuals.text_color()), (writes, 11.5, faint)] {
+        let font = FontId::proportional(size);
+        let galley = painter.layout(text.to_owned(), font, color, inside.width());
+        let high = galley.size().y;
+        painter.galley(at, galley, color);
+        at.y += high + 2.0;
+    }
+    response.widget_info(|| WidgetInfo::selected(Role::Button, true, is_on, name));
+    response
 }
 
 #[cfg(test)]

@@ -133,8 +133,7 @@ impl Goals {
             }
             let whole = effect::of(goal, seen);
             let effect = if wide < ROOMY { effect::in_short(goal, seen) } else { whole.clone() };
-            let is_new = seen.counts != seen.before;
-            let ink = if is_new { seen.look.playhead } else { seen.look.faint };
+            let ink = if effect::is_new(goal, seen) { seen.look.playhead } else { seen.look.faint };
             ui.add(Label::new(RichText::new(&effect).color(ink)).truncate()).on_hover_text(whole);
         });
         ui.horizontal(|ui| {

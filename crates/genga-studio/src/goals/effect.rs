@@ -26,17 +26,28 @@ pub(super) fn in_short(goal: Goal, seen: &Seen<'_>) -> String {
     }
 }
 
+/// Whether the last change has changed it.
+pub(super) fn is_new(goal: Goal, seen: &Seen<'_>) -> bool {
+    let [before, now] = values(goal, seen);
+    before != now
+}
+
 /// The value of a goal, with its change.
 fn value(goal: Goal, seen: &Seen<'_>) -> String {
-    let [before, now] = [seen.before, seen.counts].map(|counts| match goal {
-        Goal::Genga => counts.genga.to_string(),
-        Goal::Pace => tenths(counts.a_second(counts.drawings)),
-        Goal::Snap => tenths(counts.contrast),
-    });
+    let [before, now] = values(goal, seen);
     match before == now {
         true => now,
         false => format!("{before} {} {now}", seen.words.arrow()),
     }
+}
+
+/// The value of a goal before the last change, and now.
+fn values(goal: Goal, seen: &Seen<'_>) -> [String; 2] {
+    [seen.before, seen.counts].map(|counts| match goal {
+        Goal::Genga => counts.genga.to_string(),
+        Goal::Pace => tenths(counts.a_second(counts.drawings)),
+        Goal::Snap => tenths(counts.contrast),
+    })
 }
 
 fn rate(seen: &Seen<'_>) -> f64 {

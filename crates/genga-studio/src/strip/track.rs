@@ -131,7 +131,8 @@ fn forbidden(painter: &Painter, layout: &Layout, shown: &Shown<'_>) {
         let last = shown.frame(range.past.0 as f64 - 1.0);
         let [from, to] = [range.from, last].map(|frame| column.clock.koma_from_frame(frame));
         for koma in from..=to.min(column.length.saturating_sub(1)) {
-            let at = pos2(layout.x(koma) + 0.5 * layout.koma(), layout.badges);
+            // Above the figures, where no number covers it.
+            let at = pos2(layout.x(koma) + 0.5 * layout.koma(), layout.figures.min.y + 6.0);
             if layout.rect.contains(at) && room.take(at.x, 8.0) {
                 cross(painter, at, 3.5, Stroke::new(1.8, shown.look.genga));
             }
