@@ -1,5 +1,5 @@
-//! The cost of a turned knob until the picture has changed, without a window: `cargo bench -p genga-benches --features
-//! studio --bench studio`.
+//! The cost of a frame of the studio, and of a turned knob until the picture has changed, without a window: `cargo bench
+//! -p genga-benches --features studio --bench studio`.
 //!
 //! One round is the chain from that knob on, and the frame that shows the result with its triangles, in a window of
 //! 1440 × 900. A frame at 60 Hz has 16.7 ms.
@@ -32,8 +32,8 @@ fn frame(context: &Context, studio: &mut Studio) -> usize {
     drawn.len()
 }
 
-/// Turns a knob back and forth between two values.
-fn turned(bencher: Bencher<'_, '_>, frames: usize, knob: &str, values: [&str; 2]) {
+/// A studio with a swinging body of so many frames on the table.
+fn opened(frames: usize) -> (Context, Studio) {
     let context = Context::default();
     let desk = ClipsAlone(move |_: &Path| Ok(body::swinging(frames)));
     let mut studio = Studio::new(Arc::new(desk), Language::English);
@@ -42,12 +42,29 @@ fn turned(bencher: Bencher<'_, '_>, frames: usize, knob: &str, values: [&str; 2]
         frame(&context, &mut studio);
         thread::sleep(Duration::from_millis(5));
     }
+    // The panels arrive one by one.
+    for _ in 0..10 {
+        frame(&context, &mut studio);
+    }
+    (context, studio)
+}
+
+/// Turns a knob back and forth between two values.
+fn turned(bencher: Bencher<'_, '_>, frames: usize, knob: &str, values: [&str; 2]) {
+    let (context, mut studio) = opened(frames);
     let mut turn = 0;
     bencher.bench_local(|| {
         turn += 1;
         studio.turn(knob, values[turn % 2]).expect("a value of the knob");
         frame(&context, &mut studio)
     });
+}
+
+/// Draws the window again with nothing changed: the strip of genga over the whole take, views and sheet.
+#[divan::bench(args = FRAMES, sample_count = 40)]
+fn window_drawn(bencher: Bencher<'_, '_>, frames: usize) {
+    let (context, mut studio) = opened(frames);
+    bencher.bench_local(|| frame(&context, &mut studio));
 }
 
 /// Reruns from the filter on, the longest path.

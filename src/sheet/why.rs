@@ -217,7 +217,7 @@ impl Why {
             }
         }
         if self.hold_set {
-            reasons.push("長さは手動で指定".into());
+            reasons.push("止めの長さは手動".into());
         }
         reasons.join("、")
     }

@@ -46,7 +46,7 @@ fn a_found_key_is_locked_moved_and_forbidden_on_the_keyboard() {
     assert!(table.edits().is_empty(), "it is where it was");
     table.tap(Modifiers::NONE, Key::K);
     assert_eq!(table.edits().forbidden.len(), 1);
-    table.harness.get_by_label_contains("Remove: no genga").click();
+    table.harness.get_by_label_contains("Remove: forbidden").click();
     table.harness.run();
     assert!(table.edits().is_empty());
 }
@@ -56,8 +56,7 @@ fn corrections_survive_another_recipe() {
     let mut table = Table::with_kick();
     table.go(43);
     table.tap(Modifiers::NONE, Key::K);
-    table.harness.get_by_label("On threes").click();
-    table.harness.run();
+    table.turn("spacing.on", "3");
     assert_eq!(table.pins(), [42]);
     table.harness.get_by_label_contains("frame 42");
 }
@@ -171,8 +170,7 @@ fn a_hold_is_set_on_the_keyboard_and_survives_another_recipe() {
     table.tap(Modifiers::NONE, Key::OpenBracket);
     assert_eq!(table.edits().holds.len(), 1);
     assert_eq!(table.edits().holds[0].koma, 11);
-    table.harness.get_by_label("On threes").click();
-    table.harness.run();
+    table.turn("spacing.on", "3");
     table.harness.get_by_label("held 0: 11 koma");
     table.harness.get_by_label("Remove: held 0: 11 koma").click();
     table.harness.run();

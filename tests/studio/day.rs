@@ -150,8 +150,7 @@ fn a_minute_is_worked_on_from_loading_to_reopening() {
     table.leave("03-two-columns.png");
 
     table.harness.state_mut().turn("keys.min_price", "8").unwrap();
-    table.harness.get_by_label("On threes").click();
-    table.harness.run();
+    table.turn("spacing.on", "3");
     table.leave("04-tuned.png");
 
     table.tap(Modifiers::NONE, Key::A);
@@ -192,6 +191,8 @@ fn a_minute_is_worked_on_from_loading_to_reopening() {
 
     table.tap(Modifiers::COMMAND, Key::S);
     table.tap(Modifiers::COMMAND, Key::E);
+    table.harness.get_by_label("All formats").click();
+    table.harness.run();
     for format in ["xdts", "xsheet"] {
         table.harness.get_by_label(format).click();
         table.harness.run();

@@ -47,11 +47,31 @@ impl Table {
         Self::with(&sample("kick.bvh"), Arc::default(), Language::English, Theme::Light)
     }
 
-    /// A studio with a clip on the table.
+    /// A studio with a kick on the table, as it opens.
+    pub(crate) fn plain_kick() -> Self {
+        Self::plain(&sample("kick.bvh"), Arc::default(), Language::English, Theme::Light)
+    }
+
+    /// A studio with a clip on the table, with expert settings and curves.
     pub(crate) fn with(clip: &Path, desk: Arc<Memory>, language: Language, theme: Theme) -> Self {
+        let mut table = Self::plain(clip, desk, language, theme);
+        for panel in [Key::Num7, Key::Num8] {
+            table.tap(Modifiers::NONE, panel);
+        }
+        table
+    }
+
+    /// A studio with a clip on the table, as it opens.
+    pub(crate) fn plain(clip: &Path, desk: Arc<Memory>, language: Language, theme: Theme) -> Self {
         let mut table = Self::empty(desk, language, theme);
         table.open(clip);
         table
+    }
+
+    /// Sets a knob.
+    pub(crate) fn turn(&mut self, knob: &str, value: &str) {
+        self.harness.state_mut().turn(knob, value).unwrap();
+        self.harness.run();
     }
 
     /// A studio with an empty table.

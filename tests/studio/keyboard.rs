@@ -42,7 +42,7 @@ impl Table {
 
     /// Presses F6 until the part that begins with this control is focused.
     fn part(&mut self, name: &str) {
-        for _ in 0..9 {
+        for _ in 0..10 {
             self.strike(Key::F6);
             if self.focused().as_deref() == Some(name) {
                 return;
@@ -220,7 +220,7 @@ fn the_map_turns_both_knobs() {
 fn knobs_are_turned_chosen_and_switched() {
     let mut table = Table::with_kick();
     let get = |table: &Table, knob: &str| table.recipe().get(knob).unwrap();
-    table.part("On twos");
+    table.part("TV action");
     table.strike(Key::Tab);
     table.strike(Key::Space);
     assert_eq!(get(&table, "spacing.on"), "3", "a preset");
@@ -248,6 +248,8 @@ fn an_export_is_ordered_written_and_stopped() {
     let mut table = Table::with(&clip, Arc::default(), Language::English, Theme::Light);
     table.tap(Modifiers::COMMAND, Key::E);
     assert_eq!(table.focused().as_deref(), Some("Write the files"));
+    table.walk_to("All formats");
+    table.strike(Key::Space);
     table.walk_to("xdts");
     table.strike(Key::Enter);
     assert!(table.is_there("Write the files"), "it switches the format and writes nothing");
@@ -256,7 +258,7 @@ fn an_export_is_ordered_written_and_stopped() {
     table.walk_to("Write the files");
     table.harness.key_press(Key::Enter);
     (0..3).for_each(|_| table.harness.step());
-    for _ in 0..9 {
+    for _ in 0..10 {
         table.harness.key_press(Key::F6);
         (0..2).for_each(|_| table.harness.step());
         if table.focused().as_deref() == Some("Stop writing") {
@@ -320,7 +322,7 @@ fn a_key_is_named_weighted_held_and_forbidden() {
     table.walk_to("Remove: pinned");
     table.strike(Key::Space);
     assert!(table.edits().is_empty());
-    table.walk_to("No genga here");
+    table.walk_to("Forbid");
     table.strike(Key::Enter);
     assert_eq!(table.edits().forbidden.len(), 1);
 }

@@ -25,11 +25,6 @@ impl Table {
             found.push(koma(self));
         }
     }
-
-    fn turn(&mut self, knob: &str, value: &str) {
-        self.harness.state_mut().turn(knob, value).unwrap();
-        self.harness.run();
-    }
 }
 
 /// A knob setting that leaves fewer genga.
@@ -113,8 +108,7 @@ fn genga_are_copied_from_column_to_column_and_from_take_to_take() {
 fn one_key_goes_from_one_sheet_to_the_other() {
     let mut table = Table::with_kick();
     table.tap(Modifiers::NONE, Key::X);
-    table.harness.get_by_label("On threes").click();
-    table.harness.run();
+    table.turn("spacing.on", "3");
     table.tap(Modifiers::NONE, Key::X);
     assert_eq!(table.recipe().get("spacing.on").unwrap(), "2-3");
     table.tap(Modifiers::NONE, Key::X);

@@ -52,7 +52,7 @@ fn escape_closes_a_menu_and_leaves_the_rest() {
     table.tap(Modifiers::COMMAND, Key::O);
     let sheet = table.canvas("Timesheet");
     let at = sheet.min + vec2(92.0, 17.0 * 2.5);
-    let count = |table: &Table| table.harness.query_all_by_label("Genga here").count();
+    let count = |table: &Table| table.harness.query_all_by_label("Pin here").count();
     let before = count(&table);
     table.harness.hover_at(at);
     for pressed in [true, false] {

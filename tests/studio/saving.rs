@@ -58,8 +58,7 @@ fn save(table: &mut Table) {
 fn a_save_is_a_recipe_that_the_command_line_reads_and_the_next_session_opens() {
     let mut table = Table::with_kick();
     table.pin_contact();
-    table.harness.get_by_label("On threes").click();
-    table.harness.run();
+    table.turn("spacing.on", "3");
     assert_eq!(table.harness.state().title(), "kick * – genga");
     save(&mut table);
     assert_eq!(table.harness.state().title(), "kick – genga");
@@ -96,8 +95,7 @@ fn of_two_sheets_both_are_kept_and_offered_again() {
     let other = sample("kick.genga-autosave-other.toml");
     let mut table = Table::with_kick();
     table.tap(Modifiers::NONE, Key::X);
-    table.harness.get_by_label("On threes").click();
-    table.harness.run();
+    table.turn("spacing.on", "3");
     table.tap(Modifiers::NONE, Key::X);
     save(&mut table);
     assert!(table.desk.text(&other).unwrap().contains("on = 3"), "B is in no recipe");
@@ -214,6 +212,8 @@ fn an_export_is_asked_for_remembered_and_goes_where_it_is_told() {
     std::fs::copy(sample("kick.bvh"), &clip).unwrap();
     let mut table = Table::with(&clip, Arc::default(), Language::English, Theme::Light);
     table.tap(Modifiers::COMMAND, Key::E);
+    table.harness.get_by_label("All formats").click();
+    table.harness.run();
     for format in ["xdts", "xsheet"] {
         table.harness.get_by_label(format).click();
         table.harness.run();
@@ -332,8 +332,7 @@ fn a_folder_is_a_list_of_takes_to_go_through() {
     table.harness.get_by_label("Takes 0 / 3");
     table.tap(Modifiers::COMMAND, Key::D);
     table.harness.get_by_label("kick · done");
-    table.harness.get_by_label("On threes").click();
-    table.harness.run();
+    table.turn("spacing.on", "3");
     table.harness.get_by_label("One recipe for all").click();
     table.harness.run();
     table.harness.get_by_label("Next").click();

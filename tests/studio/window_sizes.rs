@@ -11,17 +11,24 @@ use genga_studio::Language;
 
 use crate::harness::{Table, sample};
 
-/// Sizes of windows in points, and pixels per point: a screen of 1440 × 900 at 200 %, a small window, one in between at
-/// 200 %.
-const WINDOWS: [((usize, usize), f32); 4] =
-    [((720, 450), 2.0), ((1024, 700), 1.0), ((1024, 700), 2.0), ((1440, 900), 2.0)];
+/// Sizes of windows in points, and pixels per point: screens of 1280 × 800 and of 1440 × 900 at 200 % first.
+const WINDOWS: [((usize, usize), f32); 6] = [
+    ((640, 400), 2.0),
+    ((720, 450), 2.0),
+    ((1024, 700), 1.0),
+    ((1280, 800), 1.0),
+    ((1440, 900), 2.0),
+    ((1920, 1080), 1.0),
+];
 
 const CONTROLS: [Role; 6] =
     [Role::Button, Role::CheckBox, Role::ComboBox, Role::SpinButton, Role::TextInput, Role::Slider];
 
 impl Table {
     fn in_small((size, scale): ((usize, usize), f32), language: Language) -> Self {
-        let mut table = Self::in_window((size, scale), Arc::default(), language, Theme::Light);
+        // Looked at in both themes, with each language.
+        let theme = if language == Language::English { Theme::Light } else { Theme::Dark };
+        let mut table = Self::in_window((size, scale), Arc::default(), language, theme);
         table.open(&sample("kick.bvh"));
         (0..7).for_each(|_| table.harness.key_press(Key::ArrowDown));
         table.harness.run();
@@ -62,7 +69,7 @@ impl Table {
         faults
     }
 
-    fn write_to_look_at(&mut self, name: &str) {
+    pub(crate) fn write_to_look_at(&mut self, name: &str) {
         if let Some(folder) = std::env::var_os("GENGA_LOOK") {
             let path = std::path::Path::new(&folder).join(format!("{name}.png"));
             crate::pictures::pixmap(&self.picture()).save_png(path).unwrap();
@@ -127,6 +134,10 @@ fn the_order_of_an_export_fits() {
             let english = table.harness.query_by_label("Write the files");
             english.or_else(|| table.harness.query_by_label("書き出す")).unwrap().rect()
         };
+        let all = table.harness.query_by_label("All formats");
+        let all = all.or_else(|| table.harness.query_by_label("すべての形式")).unwrap();
+        all.click_accesskit();
+        table.harness.run();
         for format in ["xsheet", "xdts"] {
             let own = table.harness.query_all_by_label_contains(format).next().unwrap();
             own.click_accesskit();
@@ -147,4 +158,22 @@ fn the_list_of_keys_fits_and_is_turned_by_the_keyboard() {
         let is_seen = table.window().expand(1.0).contains_rect(list);
         (!is_seen).then(|| format!("the list is {list}")).into_iter().collect()
     });
+}
+
+#[test]
+fn what_is_said_before_a_clip_is_open_fits() {
+    for window in WINDOWS {
+        for language in [Language::English, Language::Japanese] {
+            let theme = if language == Language::English { Theme::Light } else { Theme::Dark };
+            let mut table = Table::in_window(window, Arc::default(), language, theme);
+            table.harness.run();
+            let faults = table.faults();
+            assert!(faults.is_empty(), "{}: {}", name_of(window, language), faults.join("\n"));
+            let first = table.harness.query_by_label("Choose a file…");
+            let first =
+                first.or_else(|| table.harness.query_by_label("ファイルを選ぶ…")).unwrap().rect();
+            assert!(table.window().contains_rect(first), "{first}");
+            table.write_to_look_at(&format!("welcome-{}", name_of(window, language)));
+        }
+    }
 }

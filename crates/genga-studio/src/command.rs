@@ -5,9 +5,10 @@ use std::path::PathBuf;
 
 use super::corrections::Correction;
 use super::export_settings::Order;
+use super::goals::presets::Preset;
 use super::panels::Side;
 use genga::edits::Speech;
-use genga::recipe::Footage;
+use genga::recipe::{Footage, Frames};
 
 /// An action of the user.
 #[derive(Debug, Clone, PartialEq)]
@@ -30,6 +31,10 @@ pub(super) enum Command {
     LoopTo,
     /// Plays the whole sheet.
     LoopAll,
+    /// Makes a passage with settings of its own of the played range, or dissolves the one that it is.
+    Passage,
+    /// Removes the passage of some frames.
+    Dissolve(Frames),
     /// Switches between source and result.
     Flip,
     /// Shows the source, the result or both.
@@ -57,14 +62,18 @@ pub(super) enum Command {
     CopyKeys,
     /// Sets the genga of a text in the column.
     PasteKeys(String),
+    /// Shows the sheet before the last change, or after it again.
+    Compare,
+    /// Shows the action at the play head on the strip, or the whole.
+    StripZoom,
     /// Switches to the other sheet of the take, initially a copy of this one.
     Other,
     /// Counts frames instead of koma, or koma again.
     Frames,
     /// Sets a key at the play head, or removes it.
     ToggleKey,
-    /// Locks the key at the play head, or unlocks it.
-    Lock,
+    /// Pins the key at the play head, or unpins it.
+    Pin,
     /// Moves the key at the play head by this many koma.
     Nudge(isize),
     /// Moves the key at the play head by this many source frames.
@@ -102,7 +111,11 @@ pub(super) enum Command {
     /// Sets a knob.
     Set(&'static str, String),
     /// Sets several knobs.
-    Preset(&'static [(&'static str, &'static str)]),
+    SetAll(&'static [(&'static str, &'static str)]),
+    /// Sets the knobs of a preset.
+    Preset(&'static Preset),
+    /// Finds settings with this many genga.
+    Keys(usize),
     /// Resets all knobs to their defaults.
     Defaults,
     Undo,
@@ -116,6 +129,10 @@ pub(super) enum Command {
     Take(isize),
     /// Marks the take as done (`true`) or flagged (`false`), or removes that mark.
     Mark(bool),
+    /// Leaves the take for another clip or closes the window, with its recipe saved or not.
+    Leave {
+        saves: bool,
+    },
     /// Saves the recipe under another name.
     SaveAs(PathBuf),
     /// Opens the system's file dialog.

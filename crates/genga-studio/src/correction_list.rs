@@ -1,9 +1,10 @@
 //! The list of corrections (修正の一覧), each with a link to its place and a button to take it back.
 
-use egui::{CollapsingHeader, RichText, Ui};
+use egui::{CollapsingHeader, Panel, RichText, ScrollArea, Ui};
 
 use super::command::Command;
 use super::corrections::Correction;
+use super::focus;
 use super::icon::{self, Icon};
 use super::view_state::Shown;
 use super::words::Words;
@@ -11,8 +12,33 @@ use genga::edits::{LayerEdits, Pin};
 use genga::keys::{Key, Origin};
 use genga::time::Frame;
 
-/// Shows the list, unless there are no corrections.
-pub(super) fn show(ui: &mut Ui, shown: &Shown<'_>, commands: &mut Vec<Command>) {
+/// Height of the list in points; more is scrolled.
+const HIGH: f32 = 132.0;
+
+/// Shows the list at the lower edge, so that what is above stays in place.
+pub(super) fn below(ui: &mut Ui, shown: &Shown<'_>, commands: &mut Vec<Command>) {
+    let edits = &shown.wanted.edits;
+    if count_all(shown) == 0 && !edits.again {
+        return;
+    }
+    Panel::bottom("corrections").exact_size(HIGH).show(ui, |ui| {
+        ScrollArea::vertical().id_salt("corrections").auto_shrink(false).show(ui, |ui| {
+            show(ui, shown, commands);
+            focus::bring_into_view(ui);
+        });
+    });
+}
+
+/// Number of corrections of keys and holds, and of passages.
+fn count_all(shown: &Shown<'_>) -> usize {
+    let edits = &shown.wanted.edits;
+    let own = edits.layers.values().map(count).sum::<usize>();
+    let keys = edits.pins.len() + edits.moves.len() + edits.forbidden.len();
+    own + keys + edits.holds.len() + shown.wanted.recipe.scopes.passages.len()
+}
+
+/// Shows the list under its header.
+fn show(ui: &mut Ui, shown: &Shown<'_>, commands: &mut Vec<Command>) {
     let (edits, words) = (&shown.wanted.edits, shown.words);
     let all = LayerEdits {
         pins: edits.pins.clone(),
@@ -22,18 +48,14 @@ pub(super) fn show(ui: &mut Ui, shown: &Shown<'_>, commands: &mut Vec<Command>) 
     };
     let own = edits.layers.iter().map(|(name, own)| (Some(name.as_str()), own));
     let lists: Vec<_> = [(None, &all)].into_iter().chain(own).collect();
-    let keys = lists.iter().map(|(_, own)| count(own)).sum::<usize>();
-    let count = keys + edits.holds.len();
-    if count == 0 && !edits.again {
-        return;
-    }
-    let title = format!("{} ({count})", words.say("Corrections", "修正"));
+    let title = format!("{} ({})", words.say("Corrections", "修正"), count_all(shown));
     let header = CollapsingHeader::new(RichText::new(title).strong()).id_salt("corrections");
     header.default_open(true).show_unindented(ui, |ui| {
         again(ui, shown, commands);
         for (column, own) in lists {
             keys_of(ui, column, own, shown, commands);
         }
+        passages(ui, shown, commands);
         for hold in &edits.holds {
             let koma = shown.words.say("koma", "コマ");
             let what =
@@ -42,6 +64,23 @@ pub(super) fn show(ui: &mut Ui, shown: &Shown<'_>, commands: &mut Vec<Command>) 
             Row { column: None, what, at: Some(hold.frame) }.show(ui, back, shown, commands);
         }
     });
+}
+
+/// Lists the passages, each with a button that dissolves it.
+fn passages(ui: &mut Ui, shown: &Shown<'_>, commands: &mut Vec<Command>) {
+    for passage in &shown.wanted.recipe.scopes.passages {
+        let what = format!("{} {}", shown.words.say("passage", "区間"), passage.frames);
+        ui.horizontal(|ui| {
+            let name = format!("{}: {what}", shown.words.say("Remove", "取り消す"));
+            if icon::button(ui, Icon::Cross, &name).clicked() {
+                commands.push(Command::Dissolve(passage.frames));
+            }
+            if ui.link(&what).clicked() {
+                let koma = shown.column().clock.koma_from_frame(passage.frames.from);
+                commands.push(Command::Go(koma));
+            }
+        });
+    }
 }
 
 /// Number of corrected keys.
@@ -66,13 +105,13 @@ fn keys_of(
     }
     for moved in &own.moves {
         let (from, to) = (moved.from, moved.to);
-        let (moves, arrow) = (words.say("moved", "移動"), words.say("to", "→"));
+        let (moves, arrow) = (words.say("moved", "移動"), words.arrow());
         let what = with_mark(format!("{moves} {from} {arrow} {to}"), &moved.pin(), words);
         let back = Correction::TakeBack(key(moved.to, Origin::Moved { from: moved.from }));
         row(what, Some(moved.to), back);
     }
     for range in &own.forbidden {
-        let what = format!("{} {range}", words.say("no genga", "原画にしない"));
+        let what = format!("{} {range}", words.say("forbidden", "禁止"));
         let at = Some(range.from).filter(|frame| shown.breakdown.clip.contains(*frame));
         row(what, at, Correction::Allow(*range));
     }

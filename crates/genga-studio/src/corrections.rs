@@ -10,7 +10,7 @@ pub(super) enum Correction {
     /// Sets a key at a frame.
     Pin(Frame),
     /// Keeps a found key where it is, whatever the knobs say.
-    Lock(Key),
+    PinKey(Key),
     /// Takes a correction back, so that what was found applies again.
     TakeBack(Key),
     /// Forbids a key at its frame.
@@ -42,7 +42,7 @@ impl Correction {
         let mut on = Of { edits: edits.clone(), column };
         match self {
             Self::Pin(frame) => on.pin(*frame),
-            Self::Lock(key) => drop(on.own_pin(key)),
+            Self::PinKey(key) => drop(on.own_pin(key)),
             Self::TakeBack(key) => on.take_back(key),
             Self::Forbid(key) => on.forbid(key),
             Self::Move(key, to) => on.move_to(key, *to),
@@ -210,10 +210,10 @@ mod tests {
     }
 
     #[test]
-    fn a_found_key_is_locked_named_weighted_and_taken_back() {
+    fn a_found_key_is_pinned_named_weighted_and_taken_back() {
         let found = key(42, Origin::Turn);
         let name = Correction::Name(found.clone(), " contact ".into());
-        let edits = on(&Edits::default(), &[Correction::Lock(found.clone()), name]);
+        let edits = on(&Edits::default(), &[Correction::PinKey(found.clone()), name]);
         let edits = Correction::Weight(found, Some(0.5)).on(&edits, None);
         assert_eq!(edits.pins, [Pin::parse("42:contact@0.5").unwrap()]);
         let pinned = key(42, Origin::Pinned);

@@ -1,8 +1,10 @@
 //! Counts (枚数): the cost of a change, shown while it is made.
 
 use super::words::Words;
-use genga::pipeline::Breakdown;
+use genga::pipeline::{Breakdown, LayerBreakdown};
 use genga::sheet::Layer;
+use genga::timing::On;
+use genga_plot::parts::Moves;
 
 /// The numbers a producer asks for, over all columns.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -11,6 +13,8 @@ pub(super) struct Counts {
     pub(super) drawings: usize,
     pub(super) longest_hold: usize,
     pub(super) koma: usize,
+    /// How many times the usual step between drawings the largest is (メリハリ): that of the column where it is most.
+    pub(super) contrast: f64,
     koma_rate: f64,
 }
 
@@ -22,37 +26,47 @@ impl Counts {
             drawings: layers.iter().map(|layer| layer.shown().count()).sum(),
             longest_hold: layers.iter().map(Layer::longest_hold).max().unwrap_or(0),
             koma: breakdown.sheet.length(),
+            contrast: breakdown.layers().map(|own| contrast(breakdown, &own)).fold(1.0, f64::max),
             koma_rate: breakdown.clock.koma_rate,
         }
     }
 
-    fn a_second(&self, count: usize) -> f64 {
+    pub(super) fn a_second(&self, count: usize) -> f64 {
         count as f64 * self.koma_rate / self.koma.max(1) as f64
     }
 
-    /// Writes the counts in words, with their change since `before`.
-    pub(super) fn words(&self, before: &Self, words: Words) -> [(&'static str, String); 4] {
-        let genga = (self.genga, before.genga);
-        let drawings = (self.drawings, before.drawings);
-        let hold = (self.longest_hold, before.longest_hold);
-        let [rate, drawing_rate] = [self.genga, self.drawings].map(|count| self.a_second(count));
+    /// The most genga that have room on the sheet.
+    pub(super) fn most_genga(&self, on: On) -> usize {
+        self.koma / on.least.clamp(1, 2) + 1
+    }
+
+    /// Writes what no goal says in words, with its change since `before`.
+    pub(super) fn words(&self, before: &Self, words: Words) -> [(&'static str, String); 2] {
+        let hold = changed((self.longest_hold, before.longest_hold));
         let koma = self.koma;
-        if words.is_japanese() {
-            [
-                ("原画", format!("{} 毎秒{rate:.1}", changed(genga))),
-                ("動画", format!("{}枚 毎秒{drawing_rate:.1}", changed(drawings))),
-                ("最長の止め", format!("{}コマ", changed(hold))),
-                ("尺", format!("{koma}コマ")),
-            ]
-        } else {
-            [
-                ("genga", format!("{}, {rate:.1} a second", changed(genga))),
-                ("drawings", format!("{}, {drawing_rate:.1} a second", changed(drawings))),
-                ("longest hold", format!("{} koma", changed(hold))),
-                ("length", format!("{koma} koma")),
-            ]
+        match words.is_japanese() {
+            true => [("最長の止め", format!("{hold}コマ")), ("尺", format!("{koma}コマ"))],
+            false => [("longest hold", format!("{hold} koma")), ("length", format!("{koma} koma"))],
         }
     }
+}
+
+/// The largest step between drawings of a column as a multiple of the usual one; 1 if nothing moves.
+fn contrast(breakdown: &Breakdown<'_>, own: &LayerBreakdown<'_>) -> f64 {
+    let mut steps = moves(breakdown, own, own.layer).ssd;
+    steps.retain(|ssd| *ssd > 0.0);
+    let middle = steps.len() / 2;
+    if steps.is_empty() {
+        return 1.0;
+    }
+    let usual = *steps.select_nth_unstable_by(middle, f64::total_cmp).1;
+    (steps.iter().copied().fold(0.0, f64::max) / usual).sqrt()
+}
+
+/// Measures the movement into each koma of a layer, with the stills of its column if it has any.
+pub(super) fn moves(breakdown: &Breakdown<'_>, own: &LayerBreakdown<'_>, layer: &Layer) -> Moves {
+    let known = own.stills.and_then(|stills| Moves::among(stills, own.spaced, layer));
+    known.unwrap_or_else(|| Moves::new(breakdown.clip, layer, breakdown.screen))
 }
 
 /// Writes a count and its change.

@@ -8,16 +8,15 @@ mod movement;
 mod pointer;
 mod ruler;
 mod sound;
-mod time;
 
 use egui::{Id, Panel, Rect, Role, Sense, Stroke, Ui, WidgetInfo, vec2};
 
 use self::pointer::Hand;
-use self::time::Window;
 use super::command::Command;
 use super::focus::{self, Part};
 use super::key_menu;
 use super::player::Player;
+use super::time_axis::{Scale, Window};
 use super::view_state::Shown;
 use genga::motion::JointId;
 
@@ -89,7 +88,7 @@ impl Curves {
         &self,
         ui: &Ui,
         (rect, inside, top): (Rect, Rect, Rect),
-        time: &time::Scale,
+        time: &Scale,
         shown: &Shown<'_>,
         player: &Player,
     ) {

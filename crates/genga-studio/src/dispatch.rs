@@ -13,6 +13,7 @@ use super::focus;
 use super::footage;
 use super::open_take::{Results, Take};
 use super::opening::Opening;
+use super::passages;
 use super::playhead_edits::Here;
 use super::viewport::Orbit;
 use super::words::Language;
@@ -48,7 +49,7 @@ impl Studio {
             }
             _ if footage::is_beside(path) => self.put_beside(path),
             None if is_recipe => self.fail("Open a clip first, then its recipe.".into()),
-            _ => self.open_folder_or_clip(path),
+            _ => self.open_or_ask(path.to_owned()),
         }
     }
 
@@ -75,7 +76,7 @@ impl Studio {
             | Command::Trails
             | Command::Exaggerated => self.look(&command),
             Command::ToggleKey
-            | Command::Lock
+            | Command::Pin
             | Command::Nudge(_)
             | Command::NudgeFrame(_)
             | Command::Hold(_)
@@ -91,6 +92,8 @@ impl Studio {
             Command::CopyKeys => self.copy_keys(ui),
             Command::PasteKeys(text) => self.paste_keys(&text),
             Command::Other => self.take_other(),
+            Command::Compare => self.compare(),
+            Command::StripZoom => self.strip.zoom(),
             Command::Frames => self.counts_frames = !self.counts_frames,
             Command::SheetZoom(factor) => self.timesheet.zoom_by(factor),
             Command::Column(column) => self.chosen = column,
@@ -102,10 +105,14 @@ impl Studio {
             | Command::CorrectOf(..)
             | Command::Drag(_)
             | Command::Set(..)
+            | Command::SetAll(_)
             | Command::Preset(_)
             | Command::Defaults
             | Command::Undo
             | Command::Redo => self.change(command),
+            Command::Passage => self.make_passage(),
+            Command::Dissolve(frames) => self.dissolve(frames),
+            Command::Keys(count) => self.ask_keys(ui, count),
             Command::Map => self.map.toggle(),
             Command::Movement => self.curves.movement = !self.curves.movement,
             Command::FocusName => self.key_panel.wants_focus = true,
@@ -123,6 +130,7 @@ impl Studio {
                 self.file.is_open = false;
                 self.open_any(&path);
             }
+            Command::Leave { saves } => self.leave(ui, saves),
             Command::SaveAs(path) => {
                 self.file.is_open = false;
                 self.save_as(&path);
@@ -153,9 +161,30 @@ impl Studio {
                 self.order.order = None;
                 self.speech.close();
                 self.footage.is_open = false;
+                (self.difference, self.leaving) = (None, None);
             }
         }
         ui.ctx().request_repaint();
+    }
+
+    /// Asks for a number of genga. During a drag it is asked of the recipe that the drag began with.
+    fn ask_keys(&mut self, ui: &Ui, count: usize) {
+        let Some(take) = &self.take else { return };
+        if ui.input(|input| input.pointer.any_down()) {
+            self.held.get_or_insert_with(|| take.wanted.clone());
+        }
+        self.asked = Some(count);
+    }
+
+    /// Finds the settings of the number of genga that was asked for. A slow search waits until the pointer is released.
+    pub(super) fn answer_keys(&mut self, is_held: bool) {
+        let Some(take) = &mut self.take else { return };
+        let Some(count) = self.asked.take_if(|_| !(is_held && take.is_slow_to_ask)) else { return };
+        let of = self.held.as_ref().unwrap_or(&take.wanted).recipe.clone();
+        match take.ask_keys(&of, count) {
+            Ok(()) => self.message = None,
+            Err(error) => self.fail(error.to_string()),
+        }
     }
 
     fn discard(&mut self) {
@@ -232,8 +261,22 @@ impl Studio {
         self.change(Command::Correct(correction));
     }
 
+    /// Shows the sheet before the last change, or after it again.
+    fn compare(&mut self) {
+        let Some(take) = &self.take else { return };
+        let (history, wanted) = (&take.history, &take.wanted);
+        let can = if self.is_before { history.can_redo(wanted) } else { history.can_undo(wanted) };
+        if can {
+            let is_before = !self.is_before;
+            self.change(if is_before { Command::Undo } else { Command::Redo });
+            self.is_before = is_before;
+        }
+    }
+
     /// Changes the document.
     pub(super) fn change(&mut self, command: Command) {
+        self.is_before = false;
+        let passage = self.marked_passage();
         let Some(take) = &mut self.take else { return };
         let column = take.results().named(self.chosen);
         let column = column.as_deref();
@@ -253,8 +296,11 @@ impl Studio {
                 Ok(())
             }
             Command::Set(knob, value) => wanted.recipe.set(knob, &value),
-            Command::Preset(settings) => {
-                settings.iter().try_for_each(|(knob, value)| wanted.recipe.set(knob, value))
+            Command::SetAll(settings) => {
+                passages::set_all(&mut wanted.recipe, passage, settings.iter().copied())
+            }
+            Command::Preset(preset) => {
+                passages::set_all(&mut wanted.recipe, passage, preset.settings())
             }
             Command::Defaults => {
                 wanted.recipe = Recipe::default();

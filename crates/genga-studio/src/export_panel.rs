@@ -2,9 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use egui::{Button, CollapsingHeader, ComboBox, Grid, Key, ScrollArea, TextEdit, Ui};
+use egui::{Button, CollapsingHeader, ComboBox, Grid, Key, RichText, ScrollArea, TextEdit, Ui};
 
 use super::command::Command;
+use super::destinations;
 use super::export_settings::{CAMERAS, Order};
 use super::focus::{self, Part};
 use super::host::Host;
@@ -71,7 +72,14 @@ impl OrderPanel {
         let scroll =
             ScrollArea::vertical().id_salt("order").max_height(room).min_scrolled_height(room);
         scroll.show(ui, |ui| {
-            formats(ui, order, &self.always, words);
+            destinations::show(ui, order, words);
+            let title = RichText::new(words.say("All formats", "すべての形式")).strong();
+            let header = CollapsingHeader::new(title).id_salt("all formats");
+            // An order for no destination is seen where it was made.
+            let is_own = !order.formats.is_empty() && destinations::of(order).is_none();
+            header.default_open(is_own).show_unindented(ui, |ui| {
+                formats(ui, order, &self.always, words);
+            });
             ui.separator();
             ui.horizontal(|ui| {
                 ui.label(words.say("Figures seen from", "図の向き"));

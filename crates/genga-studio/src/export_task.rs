@@ -7,6 +7,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use egui::Ui;
 
 use super::command::Command;
+use super::destinations::{self, Destination};
 use super::document::Document;
 use super::export_settings::Order;
 use super::focus::Part;
@@ -46,6 +47,8 @@ impl Parcel {
 /// An export in progress.
 pub(super) struct Exporting {
     folder: PathBuf,
+    /// Where the results go. `None` for formats of its own.
+    pub(super) to: Option<&'static Destination>,
     /// Name of the result being written.
     what: Arc<Mutex<String>>,
     stop: Arc<AtomicBool>,
@@ -56,6 +59,7 @@ impl Exporting {
     /// Starts writing.
     pub(super) fn begin(desk: &Arc<dyn Host>, parcel: Parcel) -> Self {
         let (desk, folder) = (Arc::clone(desk), parcel.order.folder.clone());
+        let to = destinations::of(&parcel.order);
         let what: Arc<Mutex<String>> = Arc::default();
         let told = Arc::clone(&what);
         // The text is replaced as a whole, so that a poisoned lock is harmless.
@@ -76,7 +80,7 @@ impl Exporting {
             }
             None
         });
-        Self { folder, what, stop, errand }
+        Self { folder, to, what, stop, errand }
     }
 
     /// Returns the files written, or why there are none, as a sentence. `None` while writing.

@@ -13,21 +13,25 @@ use super::theme::Look;
 pub(super) enum Part {
     Notices,
     Bar,
+    Goals,
     Takes,
     Knobs,
     Views,
+    Strip,
     PlayHead,
     Curves,
     Sheet,
 }
 
 impl Part {
-    const ALL: [Self; 8] = [
+    const ALL: [Self; 10] = [
         Self::Notices,
         Self::Bar,
+        Self::Goals,
         Self::Takes,
         Self::Knobs,
         Self::Views,
+        Self::Strip,
         Self::PlayHead,
         Self::Curves,
         Self::Sheet,

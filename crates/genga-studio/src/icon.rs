@@ -21,6 +21,10 @@ pub(super) enum Icon {
     },
     /// Closes or removes something.
     Cross,
+    /// Pins a genga, or unpins it.
+    Pin {
+        is_set: bool,
+    },
     /// Resets a value.
     Back,
     /// A disc, half of it dark.
@@ -49,7 +53,8 @@ pub(super) fn button(ui: &mut Ui, icon: Icon, name: &str) -> Response {
 
 /// A button without a name. `ink` overrides the icon's colour.
 fn plain(ui: &mut Ui, icon: Icon, ink: Option<Color32>) -> Response {
-    let side = if matches!(icon, Icon::Cross | Icon::Back) { 16.0 } else { SIDE };
+    let is_small = matches!(icon, Icon::Cross | Icon::Back | Icon::Pin { .. });
+    let side = if is_small { 16.0 } else { SIDE };
     let (rect, response) = ui.allocate_exact_size(vec2(side, side), Sense::click());
     let visuals = ui.style().interact(&response);
     let painter = ui.painter();
@@ -90,6 +95,14 @@ fn draw(painter: &Painter, icon: Icon, rect: Rect, ink: Color32) {
         Icon::Cross => {
             painter.line_segment([at(0.0, 0.0), at(1.0, 1.0)], stroke);
             painter.line_segment([at(0.0, 1.0), at(1.0, 0.0)], stroke);
+        }
+        Icon::Pin { is_set } => {
+            let (head, radius) = (at(0.5, 0.3), 0.3 * rect.width());
+            painter.line_segment([at(0.5, 0.6), at(0.5, 1.05)], stroke);
+            match is_set {
+                true => painter.circle_filled(head, radius, ink),
+                false => painter.circle_stroke(head, radius, stroke),
+            };
         }
         Icon::Back => {
             let turn = |step: i32| {

@@ -24,7 +24,7 @@ pub(super) fn show(ui: &mut Ui, key: &Key, words: Words, commands: &mut Vec<Comm
 
 /// The menu of a koma without a key.
 pub(super) fn show_none(ui: &mut Ui, shown: &Shown<'_>, commands: &mut Vec<Command>) {
-    if ui.button(shown.words.say("Genga here", "ここを原画に")).clicked() {
+    if ui.button(shown.words.say("Pin here", "ここを固定")).clicked() {
         commands.push(Command::Correct(Correction::Pin(shown.frame_of_koma(shown.at))));
         ui.close();
     }
@@ -32,12 +32,11 @@ pub(super) fn show_none(ui: &mut Ui, shown: &Shown<'_>, commands: &mut Vec<Comma
 
 /// Actions on a key that need no further input.
 fn choices(key: &Key, words: Words) -> Vec<(&'static str, Correction)> {
-    let forbid =
-        (words.say("No genga here", "ここは原画にしない"), Correction::Forbid(key.clone()));
+    let forbid = (words.say("Forbid", "禁止"), Correction::Forbid(key.clone()));
     let take_back = Correction::TakeBack(key.clone());
     match key.origin {
         Origin::Turn | Origin::Fill | Origin::Rest | Origin::Contact | Origin::Step => {
-            vec![(words.say("Pin", "固定"), Correction::Lock(key.clone())), forbid]
+            vec![(words.say("Pin", "固定"), Correction::PinKey(key.clone())), forbid]
         }
         Origin::Pinned => vec![(words.say("Unpin", "固定を解除"), take_back), forbid],
         Origin::Moved { .. } => vec![(words.say("Move back", "元の位置へ"), take_back), forbid],

@@ -1,17 +1,15 @@
-//! The knobs (調整): every setting of the recipe as a slider or a choice, made from
-//! [`KNOBS`](genga::recipe::KNOBS).
+//! The expert settings (詳細設定): every knob of the recipe as a slider or a choice with the first sentence of its help,
+//! made from [`KNOBS`](genga::recipe::KNOBS).
 
 mod choices;
 mod measured;
-pub(super) mod presets;
 
 use egui::{
-    Button, CollapsingHeader, ComboBox, RichText, ScrollArea, Slider, SliderClamping, TextEdit, Ui,
+    CollapsingHeader, ComboBox, Label, RichText, ScrollArea, Slider, SliderClamping, TextEdit, Ui,
 };
 
 pub(super) use self::measured::is_other;
 use self::measured::written;
-use self::presets::PRESETS;
 use super::command::Command;
 use super::focus::{self, Part};
 use super::icon::{self, Icon};
@@ -39,6 +37,8 @@ const FILLED: (&str, &str) = (
 /// Least and greatest width of the labels.
 const LABEL: f32 = 108.0;
 const WIDEST_LABEL: f32 = 150.0;
+/// Size of the first sentence of a help, in points.
+const SENTENCE: f32 = 11.0;
 
 /// The values of all knobs as text. They are updated only if the recipe has changed.
 #[derive(Debug, Clone)]
@@ -61,7 +61,7 @@ fn texts(recipe: &Recipe) -> Vec<String> {
 }
 
 impl Knobs {
-    /// Shows the presets, and the knobs section by section.
+    /// Shows the knobs section by section.
     pub(super) fn show(
         &mut self,
         ui: &mut Ui,
@@ -76,53 +76,28 @@ impl Knobs {
         let words = shown.words;
         ScrollArea::vertical().id_salt("knobs").auto_shrink(false).show(ui, |ui| {
             ui.spacing_mut().slider_width = 92.0;
-            self.presets(ui, words, commands);
             let wide = label_width(ui, words);
             for section in sections() {
                 let (name, is_open) = named(section, words);
                 let header = CollapsingHeader::new(RichText::new(name).strong());
-                header.id_salt(("section", section)).default_open(is_open).show_unindented(
-                    ui,
-                    |ui| {
-                        for (at, knob) in KNOBS.iter().enumerate() {
-                            if section_of(knob) == section {
-                                self.row(ui, (at, wide), knob, words, commands);
-                            }
+                let header = header.id_salt(("section", section)).default_open(is_open);
+                let header = header.show_unindented(ui, |ui| {
+                    for (at, knob) in KNOBS.iter().enumerate() {
+                        if section_of(knob) == section {
+                            self.row(ui, (at, wide), knob, words, commands);
+                            first_sentence(ui, knob, shown);
                         }
-                    },
-                );
+                    }
+                });
+                if section == sections()[0] {
+                    Part::Knobs.begins(&header.header_response);
+                }
                 if section == Some("turns") {
                     map.show(ui, shown, commands);
                 }
             }
-            super::correction_list::show(ui, shown, commands);
             focus::bring_into_view(ui);
         });
-    }
-
-    fn presets(&self, ui: &mut Ui, words: Words, commands: &mut Vec<Command>) {
-        ui.horizontal_wrapped(|ui| {
-            for (at, preset) in PRESETS.iter().enumerate() {
-                let name = words.say(preset.english, preset.japanese);
-                let value = |name: &str| {
-                    let at = KNOBS.iter().position(|knob| knob.name == name);
-                    at.map_or("", |at| &self.values[at])
-                };
-                let is_so = preset.settings.iter().all(|(knob, wanted)| value(knob) == *wanted);
-                let button = ui.add(Button::selectable(is_so, name));
-                if at == 0 {
-                    Part::Knobs.begins(&button);
-                }
-                if button.clicked() {
-                    commands.push(Command::Preset(preset.settings));
-                }
-            }
-            let name = words.say("Defaults", "初期値");
-            if ui.add(Button::selectable(self.values == self.defaults, name)).clicked() {
-                commands.push(Command::Defaults);
-            }
-        });
-        ui.separator();
     }
 
     fn row(
@@ -160,6 +135,23 @@ impl Knobs {
             }
         });
     }
+}
+
+/// Shows the first sentence of a knob's help below it; the rest is in the tooltip of its name.
+fn first_sentence(ui: &mut Ui, knob: &Knob, shown: &Shown<'_>) {
+    let words = shown.words;
+    let sentence = match words.is_japanese() {
+        true => first_of(knob.japanese_help, "。").to_owned(),
+        false => words.english(first_of(knob.help, ". ")),
+    };
+    let text = RichText::new(sentence).size(SENTENCE).color(shown.look.faint);
+    ui.add(Label::new(text).wrap());
+    ui.add_space(3.0);
+}
+
+/// The text up to and including the first end of a sentence.
+fn first_of<'a>(text: &'a str, end: &str) -> &'a str {
+    text.find(end).map_or(text, |at| text[..at + end.len()].trim_end())
 }
 
 /// Explains a knob in a tooltip on its name.
@@ -361,6 +353,21 @@ mod tests {
         assert_eq!(short("keys.per_second"), "genga/s");
         assert_eq!(short("spacing.weight"), "");
         assert_eq!(short("filter.width"), "", "its button says it");
+    }
+
+    #[test]
+    fn every_knob_has_a_first_sentence_in_both_languages() {
+        for knob in KNOBS {
+            for (text, end) in [(knob.help, ". "), (knob.japanese_help, "。")] {
+                let first = first_of(text, end);
+                let is_whole = first.ends_with(['.', '。']) && text.starts_with(first);
+                assert!(is_whole && first.chars().count() <= 240, "{}: {first}", knob.name);
+            }
+            let words = Words { language: Default::default(), has_japanese: false };
+            let english = words.english(first_of(knob.help, ". "));
+            let is_known = |letter: char| letter.is_ascii() || "°²×–".contains(letter);
+            assert!(english.chars().all(is_known), "{}: {english}", knob.name);
+        }
     }
 
     #[test]

@@ -70,7 +70,8 @@ pub(super) fn message(
 
 /// Offers to recover the unsaved work of an earlier session.
 pub(super) fn recovery(ui: &mut Ui, look: &Look, words: Words, commands: &mut Vec<Command>) {
-    one(ui, look.genga, |ui| {
+    // An offer is no failure, so its frame is not red.
+    one(ui, look.playhead, |ui| {
         ui.horizontal_wrapped(|ui| {
             ui.label(words.say(
                 "Unsaved corrections from an earlier session were found.",

@@ -20,10 +20,13 @@ use genga::error::Error;
 use genga::motion::Clip;
 use genga::pipeline::{Breakdown, Engine};
 use genga::recipe::Recipe;
+use genga::target::{Target, meet};
 use genga_plot::parts::Cels;
 
 /// Longest run, in seconds, that is still repeated during a drag.
 const QUICK: f64 = 0.04;
+/// Longest search for a number of genga, in seconds, that is still repeated during a drag.
+const PATIENT: f64 = 0.12;
 
 /// The results of a clip and its document, and the document asked for next.
 pub(super) struct Results<'a> {
@@ -71,10 +74,14 @@ pub(super) struct Take {
     document: Document,
     /// All columns of its sheet laid on one another, as in the exported files. `None` before the chain has run.
     cels: Option<Cels>,
+    /// The counts of its sheet. `None` before the chain has run.
+    counts: Option<Counts>,
     saved: Document,
     /// State last kept in case of a crash.
     kept: Unsaved,
     is_slow: bool,
+    /// Whether the last search for a number of genga was slow.
+    pub(super) is_slow_to_ask: bool,
     /// Whether the engine last ran for something other than `document`.
     is_elsewhere: bool,
 }
@@ -106,9 +113,11 @@ impl Take {
             engine,
             document: saved.clone(),
             cels: None,
+            counts: None,
             kept: Unsaved::nothing(&saved),
             saved,
             is_slow: false,
+            is_slow_to_ask: false,
             is_elsewhere: false,
         })
     }
@@ -129,6 +138,7 @@ impl Take {
             Step::Time => engine.run(recipe, edits).map(drop),
             Step::Lay => {
                 let breakdown = engine.last(recipe).expect("it was timed in the step before");
+                self.counts = Some(Counts::new(&breakdown));
                 Cels::new(breakdown.clip, breakdown.sheet).map(|cels| self.cels = Some(cels))
             }
         };
@@ -157,12 +167,17 @@ impl Take {
         Results { breakdown, cels, scene: &self.scene, wanted: &self.wanted }
     }
 
+    /// Whether another document is asked for than that of the results.
+    pub(super) fn is_behind(&self) -> bool {
+        self.wanted != self.document
+    }
+
     /// Computes the results again if another document is asked for. A slow clip waits until the pointer is released.
     ///
     /// If the chain refuses the document, `wanted` is reset and everything stays as it was. Returns whether anything
     /// changed.
     pub(super) fn renew(&mut self, is_held: bool) -> Result<bool, Error> {
-        if self.wanted == self.document || is_held && self.is_slow {
+        if !self.is_behind() || is_held && self.is_slow {
             return Ok(false);
         }
         let Document { recipe, edits, footage } = &self.wanted;
@@ -175,9 +190,13 @@ impl Take {
         let before = (&self.document.recipe, self.cels.as_ref());
         self.is_elsewhere = true;
         let laid = self.engine.run(recipe, edits);
-        match laid.and_then(|breakdown| laid_again(&breakdown, recipe, before)) {
-            Ok(cels) => {
-                (self.cels, self.document) = (Some(cels), self.wanted.clone());
+        let laid = laid.and_then(|breakdown| {
+            Ok((laid_again(&breakdown, recipe, before)?, Counts::new(&breakdown)))
+        });
+        match laid {
+            Ok((cels, counts)) => {
+                (self.cels, self.counts) = (Some(cels), Some(counts));
+                self.document = self.wanted.clone();
                 self.is_elsewhere = false;
             }
             Err(error) => {
@@ -225,8 +244,19 @@ impl Take {
         self.other.as_ref().map(|_| if self.is_second { "B" } else { "A" })
     }
 
-    pub(super) fn counts(&mut self) -> Counts {
-        Counts::new(&self.results().breakdown)
+    pub(super) fn counts(&self) -> Counts {
+        self.counts.expect("sheets are counted once the chain has run")
+    }
+
+    /// Finds the settings with which a recipe's sheet has this many genga, or as near as possible, as `--keys` does.
+    /// Whether that took too long to be done again during a drag is known after the first time.
+    pub(super) fn ask_keys(&mut self, of: &Recipe, count: usize) -> Result<(), Error> {
+        let begin = Instant::now();
+        self.is_elsewhere = true;
+        let targets = [Target::Keys(count)];
+        self.wanted.recipe = meet(&mut self.engine, of, &self.wanted.edits, &targets)?.recipe;
+        self.is_slow_to_ask = begin.elapsed().as_secs_f64() > PATIENT;
+        Ok(())
     }
 
     /// Whether there are unsaved changes.

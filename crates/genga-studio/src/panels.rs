@@ -15,20 +15,20 @@ pub(super) enum Side {
 impl Side {
     pub(super) const ALL: [Self; 3] = [Self::Knobs, Self::Curves, Self::Sheet];
 
-    /// Whether it is shown by default. In a small window the views come first.
-    fn has_room(self, window: Vec2) -> bool {
+    /// Whether it is shown by default. The views come first: expert settings and curves are for who asks for them.
+    fn is_usual(self, window: Vec2) -> bool {
         match self {
-            Self::Knobs => window.x >= 1000.0,
-            Self::Curves => window.y >= 420.0,
-            Self::Sheet => window.x >= 640.0,
+            Self::Knobs => false,
+            Self::Curves => false,
+            Self::Sheet => window.x >= 800.0,
         }
     }
 
     /// Allowed width or height, which leaves room for the views.
     pub(super) fn range(self, window: Vec2) -> RangeInclusive<f32> {
         let (least, most, views) = match self {
-            // In a small window it replaces the sheet, so that the longest names fit.
-            Self::Knobs if !self.has_room(window) => (364.0, 460.0, window.x - 360.0),
+            // In a narrow window it replaces the sheet, so that the longest names fit.
+            Self::Knobs if is_narrow(window) => (364.0, 460.0, window.x - 360.0),
             Self::Knobs => (280.0, 460.0, window.x - 560.0),
             Self::Curves => (120.0, 640.0, window.y - 400.0),
             Self::Sheet => (236.0, 640.0, window.x - 480.0),
@@ -37,13 +37,23 @@ impl Side {
     }
 }
 
+/// Whether a window has room for one panel at the side only.
+fn is_narrow(window: Vec2) -> bool {
+    window.x < 1000.0
+}
+
+/// Whether a window is so low that everything has to be in as few rows as possible: a small screen, or a page at 200 %.
+pub(super) fn is_low(window: Vec2) -> bool {
+    window.y < 520.0
+}
+
 /// The person's choice for each panel. `None` shows the panel if the window has room for it.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Panels([Option<bool>; 3]);
 
 impl Panels {
     pub(super) fn is_shown(&self, side: Side, window: Vec2) -> bool {
-        self.0[side as usize].unwrap_or_else(|| side.has_room(window))
+        self.0[side as usize].unwrap_or_else(|| side.is_usual(window))
     }
 
     /// Hides or shows a panel. In a narrow window, showing the knobs hides the sheet and the other way round.
@@ -55,7 +65,7 @@ impl Panels {
             Side::Sheet => Side::Knobs,
             Side::Curves => return,
         };
-        if is_wanted && !Side::Knobs.has_room(window) {
+        if is_wanted && is_narrow(window) {
             self.0[other as usize] = Some(false);
         }
     }
@@ -71,8 +81,8 @@ pub(super) struct Arrival(usize);
 pub(super) struct Turns(usize);
 
 impl Arrival {
-    /// Panels that take turns: those at the sides, the transport, and the views.
-    const PANELS: usize = Side::ALL.len() + 2;
+    /// Panels that take turns: those at the sides, the transport, the strip, and the views.
+    const PANELS: usize = Side::ALL.len() + 3;
 
     /// Returns the turns of this frame. Requests another frame while not all panels have a turn.
     pub(super) fn turns(&mut self, context: &Context) -> Turns {
@@ -114,8 +124,8 @@ mod tests {
             let mut turns = arrival.turns(&context);
             (0..10).filter(|_| turns.take()).count()
         };
-        let frames: [usize; 7] = std::array::from_fn(|_| filled(&mut arrival));
-        assert_eq!(frames, [0, 1, 2, 3, 4, 5, 5]);
+        let frames: [usize; 8] = std::array::from_fn(|_| filled(&mut arrival));
+        assert_eq!(frames, [0, 1, 2, 3, 4, 5, 6, 6]);
     }
 
     #[test]
@@ -123,15 +133,15 @@ mod tests {
         let (large, small) = (vec2(1440.0, 900.0), vec2(720.0, 450.0));
         let mut panels = Panels::default();
         let shown = |panels: &Panels, window| Side::ALL.map(|side| panels.is_shown(side, window));
-        assert_eq!(shown(&panels, large), [true, true, true]);
-        assert_eq!(shown(&panels, small), [false, true, true]);
+        assert_eq!(shown(&panels, large), [false, false, true]);
+        assert_eq!(shown(&panels, small), [false, false, false], "the views alone");
         panels.toggle(Side::Knobs, small);
         panels.toggle(Side::Curves, small);
-        assert_eq!(shown(&panels, small), [true, false, false], "one of the two");
+        assert_eq!(shown(&panels, small), [true, true, false], "one of the two at the side");
         panels.toggle(Side::Sheet, small);
-        assert_eq!(shown(&panels, small), [false, false, true]);
+        assert_eq!(shown(&panels, small), [false, true, true]);
         panels.toggle(Side::Knobs, large);
-        assert_eq!(shown(&panels, large), [true, false, true]);
+        assert_eq!(shown(&panels, large), [true, true, true], "a large window has room for both");
     }
 
     #[test]

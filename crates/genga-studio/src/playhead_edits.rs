@@ -33,8 +33,8 @@ impl Here<'_> {
             (Command::ToggleKey, _) => {
                 Correction::Pin(self.frame(column.clock.place_from_koma(self.at)))
             }
-            (Command::Lock, Some(key)) => match self.is_set(&key) {
-                false => Correction::Lock(key),
+            (Command::Pin, Some(key)) => match self.is_set(&key) {
+                false => Correction::PinKey(key),
                 true => Correction::TakeBack(key),
             },
             (Command::Nudge(by), Some(key)) => {

@@ -1,6 +1,6 @@
 //! Colours (色) of the light and the dark theme. The light ones are those of the exported pictures.
 
-use egui::{Color32, Theme};
+use egui::{Color32, Context, Theme};
 
 use genga::sheet::Role;
 use genga_plot::parts::{self, BodySide};
@@ -14,6 +14,7 @@ pub(super) struct Look {
     pub(super) inbetween: Color32,
     pub(super) end: Color32,
     pub(super) ink: Color32,
+    /// Grey words. They can be read on every ground.
     pub(super) faint: Color32,
     pub(super) grid: Color32,
     pub(super) raw: Color32,
@@ -37,6 +38,14 @@ const fn gray(value: u8) -> Color32 {
     Color32::from_gray(value)
 }
 
+/// Gives egui's own grey words the colour of the studio's, which egui draws too pale to be read.
+pub(super) fn dress(context: &Context) {
+    for theme in [Theme::Light, Theme::Dark] {
+        let faint = Look::from_theme(theme).faint;
+        context.style_mut_of(theme, |style| style.visuals.weak_text_color = Some(faint));
+    }
+}
+
 impl Look {
     pub(super) fn from_theme(theme: Theme) -> Self {
         match theme {
@@ -54,7 +63,7 @@ impl Look {
             inbetween: gray(122),
             end: of(parts::END),
             ink: of(parts::INK),
-            faint: of(parts::FAINT),
+            faint: Color32::from_rgb(94, 99, 107),
             grid: Color32::from_rgb(218, 222, 226),
             raw: of(parts::RAW),
             filtered: of(parts::FILTERED),
@@ -80,7 +89,7 @@ impl Look {
             inbetween: gray(150),
             end: gray(208),
             ink: gray(222),
-            faint: gray(146),
+            faint: gray(168),
             grid: gray(54),
             raw: gray(92),
             filtered: gray(214),
@@ -207,17 +216,47 @@ mod tests {
                 (look.ink, look.paper, 7.0),
                 (look.ink, look.ground, 7.0),
                 (look.faint, look.paper, 4.5),
-                (look.faint, look.ground, 4.0),
+                (look.faint, look.ground, 4.5),
                 (look.genga, look.paper, 4.0),
                 (look.playhead, look.paper, 4.0),
                 (look.playhead, look.chosen, 3.0),
                 (look.genga, look.chosen, 2.9),
-                (look.faint, look.chosen, 3.0),
+                (look.faint, look.chosen, 4.0),
                 (look.inbetween, look.paper, 3.0),
             ] {
                 for eye in EYES {
                     let contrast = contrast(words, ground, eye);
                     assert!(contrast >= least, "{words:?} on {ground:?}: {contrast:.1}");
+                }
+            }
+        }
+    }
+    #[test]
+    fn grey_words_can_be_read_on_every_ground_in_both_themes() {
+        let context = Context::default();
+        dress(&context);
+        for theme in [Theme::Light, Theme::Dark] {
+            let (look, style) = (Look::from_theme(theme), context.style_of(theme));
+            let visuals = &style.visuals;
+            assert_eq!(visuals.weak_text_color(), look.faint, "egui's own grey words");
+            let grounds = [
+                ("paper", look.paper),
+                ("ground", look.ground),
+                ("chosen", look.chosen),
+                ("steady", look.steady),
+                ("panel", visuals.panel_fill),
+                ("field", visuals.text_edit_bg_color()),
+                ("button", visuals.widgets.inactive.weak_bg_fill),
+            ];
+            for (name, ground) in grounds {
+                for (words, color) in [("grey", look.faint), ("usual", visuals.text_color())] {
+                    let contrast = contrast(color, ground, EYES[0]);
+                    // Usual words of egui stand on panels and fields only.
+                    let is_there = words == "grey" || ["panel", "field"].contains(&name);
+                    assert!(
+                        !is_there || contrast >= 4.5,
+                        "{theme:?} {words} on {name}: {contrast:.2}"
+                    );
                 }
             }
         }

@@ -7,7 +7,7 @@ use super::counts::Counts;
 use super::focus::Part;
 use super::icon::{self, Icon};
 use super::open_take::Take;
-use super::panels::{Panels, Side};
+use super::panels::{Panels, Side, is_low};
 use super::words::{Language, Words};
 
 /// Width of the window from which everything fits in one row, in points.
@@ -19,26 +19,24 @@ pub(super) struct Bar<'a> {
     pub(super) commands: &'a mut Vec<Command>,
     pub(super) panels: &'a Panels,
     pub(super) is_exporting: bool,
+    /// Whether the sheet before the last change is shown.
+    pub(super) is_before: bool,
 }
 
 impl Bar<'_> {
-    /// Shows buttons, counts and switches. In a narrow window the counts get a row of their own.
-    pub(super) fn show(
-        &mut self,
-        ui: &mut Ui,
-        mut take: Option<&mut Take>,
-        before: Option<Counts>,
-    ) {
+    /// Shows buttons, counts and switches. In a narrow window the counts get a row of their own, if it is not low too.
+    pub(super) fn show(&mut self, ui: &mut Ui, take: Option<&Take>, before: Option<Counts>) {
         let is_wide = ui.ctx().content_rect().width() >= WIDE;
         ui.horizontal(|ui| {
-            self.files(ui, take.as_deref());
-            if let Some(take) = take.as_deref_mut().filter(|_| is_wide) {
+            self.files(ui, take);
+            if let Some(take) = take.filter(|_| is_wide) {
                 ui.separator();
                 self.clip(ui, take, before);
             }
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| self.switches(ui));
         });
-        if let Some(take) = take.filter(|_| !is_wide) {
+        let has_row = !is_wide && !is_low(ui.ctx().content_rect().size());
+        if let Some(take) = take.filter(|_| has_row) {
             ui.horizontal_wrapped(|ui| self.clip(ui, take, before));
         }
     }
@@ -69,7 +67,7 @@ impl Bar<'_> {
     }
 
     /// Shows the clip's name, the letter of the sheet, and the counts.
-    fn clip(&mut self, ui: &mut Ui, take: &mut Take, before: Option<Counts>) {
+    fn clip(&mut self, ui: &mut Ui, take: &Take, before: Option<Counts>) {
         let words = self.words;
         let changed = if take.is_changed() { " *" } else { "" };
         let name = RichText::new(format!("{}{changed}", take.name())).strong();
@@ -86,6 +84,12 @@ impl Bar<'_> {
             let thaw = words.say("Frozen", "凍結中");
             if ui.button(thaw).on_hover_text("W").clicked() {
                 self.commands.push(Command::Freeze);
+            }
+        }
+        if self.is_before {
+            let before = words.say("Before the change (V)", "変更前 (V)");
+            if ui.add(Button::selectable(true, before)).clicked() {
+                self.commands.push(Command::Compare);
             }
         }
         let counts = take.counts();
@@ -123,20 +127,19 @@ impl Bar<'_> {
         }
     }
 
-    /// Shows a switch for each panel, in the order of the window. Shows none in a wide window with all panels in place.
+    /// Shows a switch for sheet and curves, unless a wide window has both. That of the expert settings stands beside the
+    /// goals.
     fn sides(&mut self, ui: &mut Ui) {
         let (words, window) = (self.words, ui.ctx().content_rect().size());
-        let is_away = |side: &Side| !self.panels.is_shown(*side, window);
-        if window.x >= WIDE && !Side::ALL.iter().any(is_away) {
+        let sides = [
+            (Side::Sheet, words.say("Sheet panel (9)", "シートのパネル (9)")),
+            (Side::Curves, words.say("Curves panel (8)", "グラフのパネル (8)")),
+        ];
+        let is_on = sides.map(|(side, _)| self.panels.is_shown(side, window));
+        if window.x >= WIDE && is_on == [true; 2] {
             return;
         }
-        for side in Side::ALL.into_iter().rev() {
-            let name = match side {
-                Side::Knobs => words.say("Settings panel (7)", "設定のパネル (7)"),
-                Side::Curves => words.say("Curves panel (8)", "グラフのパネル (8)"),
-                Side::Sheet => words.say("Sheet panel (9)", "シートのパネル (9)"),
-            };
-            let is_on = self.panels.is_shown(side, window);
+        for ((side, name), is_on) in sides.into_iter().zip(is_on) {
             if icon::switch(ui, Icon::Panel(side), name, is_on).clicked() {
                 self.commands.push(Command::Panel(side));
             }

@@ -1,17 +1,26 @@
 //! The transport (再生): buttons to play and step, and the scrub bar.
 
-use egui::{FontId, Id, Painter, Rect, Role, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
+use egui::{Button, FontId, Id, Painter, Rect, Role, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
 
 use super::command::Command;
 use super::focus::{self, Part};
 use super::icon::{self, Icon};
 use super::label_culling::{Room, step};
+use super::panels::is_low;
+use super::passages;
 use super::player::Player;
 use super::view_state::Shown;
 
-/// Shows the buttons and the scrub bar.
+/// Shows the buttons, and the scrub bar below them, or beside them in a low window.
 pub(super) fn show(ui: &mut Ui, shown: &Shown<'_>, player: &Player, commands: &mut Vec<Command>) {
     ui.add_space(2.0);
+    if is_low(ui.ctx().content_rect().size()) {
+        ui.horizontal(|ui| {
+            steps(ui, shown, player, commands);
+            scrub(ui, shown, player, commands);
+        });
+        return;
+    }
     ui.horizontal_wrapped(|ui| steps(ui, shown, player, commands));
     scrub(ui, shown, player, commands);
 }
@@ -47,8 +56,14 @@ fn steps(ui: &mut Ui, shown: &Shown<'_>, player: &Player, commands: &mut Vec<Com
             format!("{name} {at:>4} / {length}  {seconds:>6.2} {second}")
         }
     });
-    if player.range.is_some() {
-        button(ui, Icon::Cross, "Play all", "全部を再生", Command::LoopAll);
+    let Some(range) = &player.range else { return };
+    button(ui, Icon::Cross, "Play all", "全部を再生", Command::LoopAll);
+    let frames = passages::frames(&shown.breakdown, range);
+    let is_on = passages::has(&shown.wanted.recipe, frames);
+    let passage = ui.add(Button::selectable(is_on, words.say("Passage", "区間")));
+    let hint = words.say("A part with goals of its own (Q)", "目標を別に決められる部分 (Q)");
+    if passage.on_hover_text(hint).clicked() {
+        commands.push(Command::Passage);
     }
 }
 

@@ -88,6 +88,16 @@ impl<'a> Shown<'a> {
         self.beside.waveform.map(|waveform| waveform.level(second(from), second(to)))
     }
 
+    /// The place of the source at a koma. Every round of a loop goes through the clip again.
+    pub(super) fn place(&self, koma: usize) -> f64 {
+        let (column, clock) = (self.column(), self.column().clock);
+        let Some(repeat) = self.breakdown.sheet.repeat else { return clock.place_from_koma(koma) };
+        let (first, frames) = (clock.place_from_koma(0), repeat.frames as f64);
+        let begin = column.cells[0].drawing.source.place() - first;
+        let gone = (koma % repeat.koma.max(1)) as f64 * frames / repeat.koma.max(1) as f64;
+        first + (begin + gone) % frames
+    }
+
     /// The command that moves the play head to a koma. `None` if it stands there already.
     pub(super) fn go(&self, koma: usize) -> Option<Command> {
         let koma = koma.min(self.column().length.saturating_sub(1));
@@ -108,6 +118,6 @@ impl<'a> Shown<'a> {
 
     /// The source frame nearest to a koma, within the clip.
     pub(super) fn frame_of_koma(&self, koma: usize) -> Frame {
-        self.frame(self.column().clock.place_from_koma(koma))
+        self.frame(self.place(koma))
     }
 }

@@ -21,6 +21,7 @@ use super::view_state::Shown;
 use genga::sheet::Source;
 use genga_plot::parts::{Posing, Stage};
 
+pub(super) use body::{Inks, draw as draw_body};
 pub(super) use orbit::Orbit;
 
 /// State of the viewport: the camera, and what is shown.
@@ -69,8 +70,14 @@ impl Viewport {
         let margin = Margin { left: 6, ..Margin::ZERO };
         Frame::NONE.inner_margin(margin).show(ui, |ui| {
             ui.horizontal_wrapped(|ui| {
-                let shining = (self.onion, self.trails, self.exaggerated);
-                sides::show(ui, shown, (self.seen, &self.orbit), shining, commands);
+                let selected = sides::Selected {
+                    seen: self.seen,
+                    orbit: &self.orbit,
+                    onion: self.onion,
+                    trails: self.trails,
+                    exaggerated: self.exaggerated,
+                };
+                sides::show(ui, shown, &selected, commands);
             });
         });
         let all = ui.available_rect_before_wrap();
@@ -105,7 +112,7 @@ impl Viewport {
 
     /// The point that a following camera centres on: the body of the source, because its path is smooth.
     fn anchor(&self, shown: &Shown<'_>) -> DVec3 {
-        let place = shown.column().clock.place_from_koma(shown.at);
+        let place = shown.place(shown.at);
         let root = Posing::new(shown.breakdown.source, &[]).points(Source::At(place))[0];
         shown.scene.on_floor(root) + shown.scene.up * (0.5 * shown.scene.figure.height)
     }
@@ -149,7 +156,7 @@ impl Viewport {
         floor::draw(painter, &stage, shown);
         let marks = shown.scene.figure.marks();
         if seen == Seen::Source {
-            let place = |koma| Source::At(shown.column().clock.place_from_koma(koma));
+            let place = |koma| Source::At(shown.place(koma));
             let mut captured = Posing::new(shown.breakdown.source, marks);
             let mut drawn = Posing::new(shown.breakdown.clip, marks);
             let is_drawn = self.exaggerated && shown.is_exaggerated();
@@ -215,7 +222,7 @@ impl Viewport {
 fn standing(seen: Seen, shown: &Shown<'_>) -> String {
     let (words, column) = (shown.words, shown.column());
     if seen == Seen::Source {
-        let place = column.clock.place_from_koma(shown.at);
+        let place = shown.place(shown.at);
         let frame = (place * 10.0).round() / 10.0;
         return match shown.counts_frames {
             true => format!("{} {frame}", words.say("source frame", "素材フレーム")),

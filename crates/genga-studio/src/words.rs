@@ -39,8 +39,46 @@ impl Words {
         }
     }
 
+    /// An arrow from a value to the next, or a word if no font has one.
+    pub(super) fn arrow(self) -> &'static str {
+        if self.has_japanese { "→" } else { "to" }
+    }
+
+    /// A text in English, without its words in Japanese if no font has their letters.
+    pub(super) fn english(self, text: &str) -> String {
+        if self.has_japanese { text.to_owned() } else { without_japanese(text) }
+    }
+
     /// Whether labels are shown in Japanese.
     pub(super) fn is_japanese(self) -> bool {
         self.language == Language::Japanese && self.has_japanese
+    }
+}
+
+/// Leaves out what stands in parentheses in Japanese.
+fn without_japanese(text: &str) -> String {
+    let (mut english, mut rest) = (String::with_capacity(text.len()), text);
+    while let Some((before, inside)) = rest.split_once(" (") {
+        english += before;
+        match inside.split_once(')') {
+            Some((word, after)) if !word.is_ascii() => rest = after,
+            _ => {
+                english += " (";
+                rest = inside;
+            }
+        }
+    }
+    english + rest
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_in_japanese_are_left_out_with_their_parentheses() {
+        let text = "On twos (2コマ打ち), slow (0 is off), and held (止め).";
+        assert_eq!(without_japanese(text), "On twos, slow (0 is off), and held.");
+        assert_eq!(without_japanese("an end ("), "an end (");
     }
 }

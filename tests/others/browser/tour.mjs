@@ -9,7 +9,8 @@ export const AT = /^koma +(\d+) \/ \d+/;
 
 // Steps of hands that can find, click, drag and press. After each it is looked whether it did what it should.
 export async function tour(hands) {
-  // A knob: what is not saved is kept.
+  // A knob among the expert settings: what is not saved is kept.
+  await hands.press("7");
   const slider = await hands.place("filter.width", "Slider");
   const middle = slider.y + slider.height / 2;
   await hands.drag([slider.x + 20, middle], [slider.x + 50, middle]);

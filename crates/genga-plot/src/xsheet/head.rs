@@ -113,7 +113,7 @@ pub(super) fn legend(canvas: &mut Canvas, page: &Page<'_>) {
     for (mark, words) in [
         (Sign::Key, "key 原画"),
         (Sign::End, "first, last 端"),
-        (Sign::Pinned, "pinned 指定"),
+        (Sign::Pinned, "pinned 固定"),
         (Sign::Inbetween, "inbetween 中割り"),
         (Sign::Hold, "hold 止メ (over 3 koma)"),
         (Sign::Blank, "blank カラ"),

@@ -4,9 +4,9 @@ use std::ops::Range;
 
 use egui::{Align2, FontId, Painter, Pos2, Rect, Shape, Stroke, pos2, vec2};
 
-use super::time::{Scale, across};
 use crate::label_culling::Room;
 use crate::theme::Look;
+use crate::time_axis::{Scale, across};
 use crate::view_state::Shown;
 use genga::motion::JointId;
 use genga::signal::{Turn, TurnKind};

@@ -3,10 +3,10 @@
 
 use egui::{Align2, FontId, Painter, Rect, Stroke, pos2, vec2};
 
-use super::time::Scale;
 use crate::column::KeyedCell;
+use crate::counts::moves;
+use crate::time_axis::Scale;
 use crate::view_state::Shown;
-use genga_plot::parts::Moves;
 
 /// Width of the result's bars, as a share of a koma.
 const SHARE: f32 = 0.5;
@@ -15,11 +15,8 @@ const SHARE: f32 = 0.5;
 pub(super) fn draw(painter: &Painter, rect: Rect, time: &Scale, shown: &Shown<'_>) {
     let (look, breakdown) = (&shown.look, &shown.breakdown);
     let column = shown.column();
-    let [before, after] = [column.spaced, column.layer].map(|layer| {
-        let known = column.found.stills;
-        let known = known.and_then(|stills| Moves::among(stills, column.found.spaced, layer));
-        known.unwrap_or_else(|| Moves::new(breakdown.clip, layer, breakdown.screen))
-    });
+    let layers = [column.spaced, column.layer];
+    let [before, after] = layers.map(|layer| moves(breakdown, &column.found, layer));
     let most = before.largest().max(after.largest()).sqrt();
     let clipped = painter.with_clip_rect(rect.intersect(painter.clip_rect()));
     let clock = &shown.column().clock;

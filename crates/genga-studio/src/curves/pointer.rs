@@ -2,10 +2,10 @@
 
 use egui::{PointerButton, Pos2, Rect, Response};
 
-use super::time::Scale;
 use crate::command::Command;
 use crate::corrections::Correction;
 use crate::held_key::HeldKey;
+use crate::time_axis::Scale;
 use crate::view_state::Shown;
 use genga::keys::Key;
 use genga::time::Frame;

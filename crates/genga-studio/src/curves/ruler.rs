@@ -3,9 +3,9 @@
 
 use egui::{Align2, FontId, Painter, Rect, Stroke, pos2};
 
-use super::time::{Scale, across};
 use crate::column::KeyedCell;
 use crate::label_culling::{Room, step};
+use crate::time_axis::{Scale, across};
 use crate::timesheet::badge;
 use crate::view_state::Shown;
 use genga::sheet::Source;

@@ -2,7 +2,7 @@
 
 use egui::{Painter, Rect, Stroke};
 
-use super::time::Scale;
+use crate::time_axis::Scale;
 use crate::view_state::Shown;
 
 /// Draws the lane: a line for each point of the window, as long as the sound is loud.

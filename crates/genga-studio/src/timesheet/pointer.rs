@@ -5,23 +5,12 @@ use egui::{CursorIcon, PointerButton, Pos2, Response};
 use super::paper::Paper;
 use crate::column::{Column, KeyedCell};
 use crate::command::Command;
-use crate::corrections::Correction;
-use crate::held_key::HeldKey;
+use crate::held_key::Held;
 use crate::view_state::Shown;
 use genga::keys::Key;
-use genga::time::Frame;
 
 /// Distance within which the end of a hold is grabbed, in points.
 const NEAR_END: f32 = 3.5;
-
-/// The object being dragged.
-#[derive(Debug, Clone)]
-enum Held {
-    /// A key.
-    Key(HeldKey),
-    /// The end of a hold: the drawing's frame, the koma on which it begins, and the length last asked for.
-    End { frame: Frame, begin: usize, koma: usize },
-}
 
 /// Pointer state on the sheet.
 #[derive(Debug, Clone, Default)]
@@ -59,11 +48,12 @@ impl Hand {
             self.asked = under.key().cloned();
         }
         if let Some(held) = self.held.as_mut().filter(|_| response.dragged()) {
-            commands.extend(held.follow(at, paper, shown).map(Command::Drag));
+            let (koma, line) = (under.koma, paper.line(at.y).0);
+            commands.extend(held.carry(koma, line, shown).map(Command::Drag));
         }
         // A press on the end of a hold may begin a drag, so only a click there moves the play head.
         let is_of_end = match &self.held {
-            Some(held) => matches!(held, Held::End { .. }),
+            Some(held) => held.is_end(),
             None => pressed.ending().is_some(),
         };
         let is_down = response.is_pointer_button_down_on() && !is_of_end;
@@ -72,23 +62,6 @@ impl Hand {
         }
         let goes = is_down || response.clicked() || response.secondary_clicked();
         goes.then_some(under.koma)
-    }
-}
-
-impl Held {
-    /// The correction that brings it under the pointer, if that has reached another koma.
-    fn follow(&mut self, at: Pos2, paper: &Paper, shown: &Shown<'_>) -> Option<Correction> {
-        match self {
-            Self::Key(key) => {
-                let koma = paper.koma(at.y, shown.column().length);
-                key.carry(shown.frame_of_koma(koma))
-            }
-            Self::End { frame, begin, koma } => {
-                let wanted = paper.line(at.y).0.saturating_sub(*begin).max(1);
-                let is_new = std::mem::replace(koma, wanted) != wanted;
-                is_new.then_some(Correction::Hold(*frame, wanted))
-            }
-        }
     }
 }
 
@@ -111,11 +84,10 @@ impl<'a, 'b> Under<'a, 'b> {
 
     /// The object grabbed at the position.
     fn grasped(&self, shown: &Shown<'_>) -> Option<Held> {
-        if let Some(cell) = self.ending() {
-            let frame = cell.hold_frame(&shown.wanted.edits);
-            return Some(Held::End { frame, begin: cell.koma, koma: cell.held });
+        match self.ending() {
+            Some(cell) => Some(Held::end_of(cell, shown)),
+            None => self.key().map(Held::key),
         }
-        self.key().map(|key| Held::Key(HeldKey::take(key)))
     }
 
     /// The key whose number is at the position.

@@ -8,7 +8,7 @@ use genga_plot::parts::{BodySide, Drawn, Ink, Shape};
 
 /// Colours of a figure.
 #[derive(Debug, Clone, Copy)]
-pub(super) enum Inks {
+pub(crate) enum Inks {
     /// Left and right in their own colours.
     Sides,
     /// Lines only, in one colour, with their width multiplied by a factor.
@@ -45,7 +45,7 @@ impl Inks {
 }
 
 /// Draws a figure, from far to near.
-pub(super) fn draw(painter: &Painter, drawn: &Drawn, inks: Inks, look: &Look) {
+pub(crate) fn draw(painter: &Painter, drawn: &Drawn, inks: Inks, look: &Look) {
     let ink = inks.line(Ink::Side(BodySide::Trunk), look);
     for shape in &drawn.shapes {
         match shape {

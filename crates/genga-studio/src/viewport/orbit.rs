@@ -80,7 +80,7 @@ impl Orbit {
         (self.zoom, self.pan) = (1.0, (0.0, 0.0));
     }
 
-    pub(super) fn view(&self, scene: &Scene) -> View {
+    pub(crate) fn view(&self, scene: &Scene) -> View {
         let level = scene.view(match self.standard {
             Standard::Front | Standard::Top => Camera::Front,
             Standard::Side => Camera::Side,

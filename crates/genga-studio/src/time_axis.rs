@@ -1,4 +1,4 @@
-//! The visible part of a clip, and the positions of its frames in the window.
+//! A time axis (時間軸) in the window: the visible part of a clip or a sheet, and the positions of its frames or koma.
 
 use egui::{PointerButton, Rangef, Rect, Response, Ui, Vec2};
 
@@ -31,7 +31,7 @@ impl Window {
     /// middle button move the view, and a double click shows all.
     pub(super) fn handle(&mut self, ui: &Ui, response: &Response, rect: Rect) {
         if response.double_clicked() {
-            (self.from, self.to) = (self.whole.0, self.whole.1.max(self.whole.0 + 1.0));
+            self.show_whole();
         }
         let a_point = (self.to - self.from) / f64::from(rect.width().max(1.0));
         if response.dragged_by(PointerButton::Secondary)
@@ -54,6 +54,36 @@ impl Window {
     pub(super) fn walk(&mut self, keys: Vec2, about: Frame) {
         self.shift(f64::from(keys.x) * A_STEP * (self.to - self.from));
         self.zoom(about.0 as f64, A_FACTOR.powf(-f64::from(keys.y)));
+    }
+
+    /// Whether everything is in view.
+    pub(super) fn is_whole(&self) -> bool {
+        self.to - self.from >= self.whole.1 - self.whole.0
+    }
+
+    /// Whether a place is in view.
+    pub(super) fn has(&self, place: f64) -> bool {
+        (self.from..self.to).contains(&place)
+    }
+
+    /// Shows everything.
+    pub(super) fn show_whole(&mut self) {
+        (self.from, self.to) = (self.whole.0, self.whole.1.max(self.whole.0 + 1.0));
+    }
+
+    /// Shows a part, with some room at both ends.
+    pub(super) fn show_part(&mut self, from: f64, to: f64) {
+        let length = (1.1 * (to - from)).clamp(FEWEST, (self.whole.1 - self.whole.0).max(FEWEST));
+        let highest = (self.whole.1 - length).max(self.whole.0);
+        self.from = (0.5 * (from + to - length)).clamp(self.whole.0, highest);
+        self.to = self.from + length;
+    }
+
+    /// Moves as far as needed to bring a place into view.
+    pub(super) fn reveal(&mut self, place: f64) {
+        if !self.has(place) {
+            self.shift(place - 0.5 * (self.from + self.to));
+        }
     }
 
     fn shift(&mut self, by: f64) {
@@ -154,6 +184,27 @@ mod tests {
         assert_eq!((window.from, window.to), (60.0, 110.0));
         window.zoom(110.0, 1e-9);
         assert_eq!((window.from, window.to), (10.0, 110.0));
+    }
+
+    #[test]
+    fn a_part_is_shown_with_room_around_it_and_what_is_outside_is_revealed() {
+        let mut window = Window::default();
+        window.fit((0.0, 1000.0));
+        assert!(window.is_whole());
+        window.show_part(100.0, 200.0);
+        assert!(
+            (window.from - 95.0).abs() < 1e-9 && (window.to - 205.0).abs() < 1e-9,
+            "{window:?}"
+        );
+        let before = window;
+        window.reveal(150.0);
+        assert_eq!(window, before, "it is in view");
+        window.reveal(990.0);
+        assert_eq!(window.to, 1000.0);
+        window.show_part(-50.0, 20.0);
+        assert_eq!(window.from, 0.0);
+        window.show_whole();
+        assert!(window.is_whole());
     }
 
     #[test]

@@ -1,0 +1,192 @@
+//! Draws the figures of the strip, the ghosts of genga that went, and the passage that plays under the pointer.
+
+use egui::{Align2, FontId, Painter, Pos2, Rect, Stroke, Ui, pos2, vec2};
+use glam::DVec3;
+
+use super::choice::Figured;
+use super::layout::Layout;
+use crate::command::Command;
+use crate::corrections::Correction;
+use crate::difference::Changed;
+use crate::icon::{self, Icon};
+use crate::label_culling::Room;
+use crate::view_state::Shown;
+use crate::viewport::{Inks, Orbit, draw_body};
+use genga::sheet::Source;
+use genga_plot::parts::{Posing, Stage};
+
+/// Height of a view in heights of the body, so that arms and jumps have room.
+const TALL: f64 = 1.2;
+/// Seconds until the passage under the pointer begins to play, and koma that it rests at its end.
+const DELAY: f64 = 0.25;
+const REST: usize = 8;
+/// Side of a button on a figure, in points.
+const BUTTON: f32 = 16.0;
+
+/// The passage from the genga under the pointer to the next.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Passage {
+    /// Index of the exposure among the cells of the column.
+    cell: usize,
+    /// Time at which the pointer came, in seconds.
+    since: f64,
+}
+
+impl Passage {
+    /// The passage of an exposure under the pointer. It goes on if it was there before.
+    pub(super) fn under(cell: Option<usize>, before: Option<Self>, now: f64) -> Option<Self> {
+        let cell = cell?;
+        let same = before.filter(|before| before.cell == cell);
+        Some(same.unwrap_or(Self { cell, since: now }))
+    }
+
+    /// Koma of the passage, the next genga included.
+    fn koma(&self, shown: &Shown<'_>) -> std::ops::Range<usize> {
+        let cells = &shown.column().cells;
+        let Some(from) = cells.get(self.cell) else { return 0..1 };
+        let next = cells[self.cell + 1..].iter().find(|cell| cell.genga.is_some());
+        from.koma..next.map_or(from.koma + from.held, |next| next.koma + 1)
+    }
+
+    /// The koma to be shown. `None` while it rests at its beginning.
+    fn at(&self, now: f64, shown: &Shown<'_>) -> Option<usize> {
+        let (koma, rate) = (self.koma(shown), shown.column().clock.koma_rate);
+        let gone = (now - self.since - DELAY) * rate;
+        let step = (gone >= 0.0).then(|| gone as usize % (koma.len() + REST))?;
+        Some((koma.start + step).min(koma.end - 1))
+    }
+
+    /// Seconds until the next koma. `None` if nothing moves.
+    pub(super) fn wait(&self, now: f64, shown: &Shown<'_>) -> Option<f32> {
+        let rate = shown.column().clock.koma_rate;
+        let gone = (now - self.since - DELAY) * rate;
+        let is_moving = self.koma(shown).len() > 1;
+        is_moving
+            .then(|| if gone < 0.0 { -gone / rate } else { (1.0 - gone.fract()) / rate } as f32)
+    }
+}
+
+/// Draws the ghosts of a change, then the figures.
+pub(super) fn draw(
+    painter: &Painter,
+    layout: &Layout,
+    (figured, passage): (&[Figured], Option<(&Passage, f64)>),
+    (shown, orbit): (&Shown<'_>, &Orbit),
+    changed: Option<&Changed>,
+) {
+    let painter = &painter.with_clip_rect(layout.rect.intersect(painter.clip_rect()));
+    let mut place = Place::new(layout, shown, orbit);
+    if let Some(changed) = changed {
+        ghosts(painter, layout, &mut place, changed, shown);
+    }
+    let column = shown.column();
+    let current = column.at(shown.at);
+    let mut posing = shown.on_screen.posing(shown.scene.figure.marks());
+    for own in figured {
+        let cell = &column.cells[own.cell];
+        let x = layout.x(cell.koma);
+        if own.cell == current {
+            painter.rect_filled(layout.slot(x), 4.0, shown.look.chosen);
+        }
+        let played = passage.filter(|(passage, _)| passage.cell == own.cell);
+        let koma = played.and_then(|(passage, now)| passage.at(now, shown)).unwrap_or(cell.koma);
+        let pose = posing.koma(koma);
+        draw_body(painter, &place.stage(x, &pose).draw(&pose), Inks::Sides, &shown.look);
+        if changed.is_some_and(|changed| changed.came.binary_search(&cell.koma).is_ok()) {
+            plus(painter, layout.slot(x), shown);
+        }
+    }
+}
+
+/// Draws the genga that went, as pale figures crossed out where they stood.
+fn ghosts(
+    painter: &Painter,
+    layout: &Layout,
+    place: &mut Place<'_>,
+    changed: &Changed,
+    shown: &Shown<'_>,
+) {
+    let look = &shown.look;
+    let mut posing = Posing::new(shown.breakdown.clip, shown.scene.figure.marks());
+    let mut room = Room::default();
+    for gone in &changed.gone {
+        let x = layout.x(gone.koma);
+        let is_seen = layout.rect.x_range().contains(x);
+        if !is_seen || !room.take(x, 0.4 * layout.wide) {
+            continue;
+        }
+        let pose = posing.points(Source::At(gone.place));
+        let ink = Inks::One(look.faint.gamma_multiply(0.55), 0.8);
+        draw_body(painter, &place.stage(x, &pose).draw(&pose), ink, look);
+        cross(painter, pos2(x, layout.badges), 3.5, Stroke::new(1.8, look.faint));
+    }
+}
+
+/// Draws a cross.
+pub(super) fn cross(painter: &Painter, middle: Pos2, half: f32, stroke: Stroke) {
+    painter.line_segment([middle - vec2(half, half), middle + vec2(half, half)], stroke);
+    painter.line_segment([middle - vec2(half, -half), middle + vec2(half, -half)], stroke);
+}
+
+/// Marks a genga that came.
+fn plus(painter: &Painter, slot: Rect, shown: &Shown<'_>) {
+    let (middle, look) = (slot.left_top() + vec2(8.0, 8.0), &shown.look);
+    painter.circle_filled(middle, 6.5, look.wall);
+    painter.text(middle, Align2::CENTER_CENTER, "+", FontId::proportional(12.0), look.paper);
+}
+
+/// The stage of one figure after another.
+struct Place<'a> {
+    stage: Stage,
+    shown: &'a Shown<'a>,
+}
+
+impl<'a> Place<'a> {
+    fn new(layout: &Layout, shown: &'a Shown<'a>, orbit: &Orbit) -> Self {
+        let (scene, high) = (shown.scene, f64::from(layout.figures.height()));
+        let figure = scene.figure.clone();
+        let scale = high / (TALL * figure.height);
+        let floor = (0.0, f64::from(layout.figures.max.y) - 0.04 * high);
+        Self {
+            stage: Stage { figure, view: orbit.view(scene), scale, origin: (0.0, 0.0), at: floor },
+            shown,
+        }
+    }
+
+    /// The stage on which a pose stands over a position, on the floor of the scene.
+    fn stage(&mut self, x: f32, pose: &[DVec3]) -> &Stage {
+        let below = self.stage.view.see(self.shown.scene.on_floor(pose[0]));
+        self.stage.origin = (below.0, below.1);
+        self.stage.at.0 = f64::from(x);
+        &self.stage
+    }
+}
+
+/// Shows buttons on the figure under the pointer: pin or unpin it, and forbid it.
+pub(super) fn buttons(
+    ui: &mut Ui,
+    passage: &Passage,
+    layout: &Layout,
+    shown: &Shown<'_>,
+    commands: &mut Vec<Command>,
+) {
+    let Some(cell) = shown.column().cells.get(passage.cell) else { return };
+    let Some(key) = cell.key else { return };
+    let (slot, words) = (layout.slot(layout.x(cell.koma)), shown.words);
+    let is_set = key.origin.is_set();
+    let pin = match is_set {
+        true => (words.say("Unpin", "固定を解除"), Correction::TakeBack(key.clone())),
+        false => (words.say("Pin", "固定"), Correction::PinKey(key.clone())),
+    };
+    let forbid = (words.say("Forbid", "禁止"), Correction::Forbid(key.clone()));
+    let corner = pos2(slot.center().x - BUTTON - 1.0, slot.min.y - 2.0);
+    for (at, (icon, (name, correction))) in
+        [(Icon::Pin { is_set }, pin), (Icon::Cross, forbid)].into_iter().enumerate()
+    {
+        let corner = corner + vec2(at as f32 * (BUTTON + 2.0), 0.0);
+        let rect = Rect::from_min_size(corner, vec2(BUTTON, BUTTON));
+        if ui.put(rect, |ui: &mut Ui| icon::button(ui, icon, name)).clicked() {
+            commands.push(Command::Correct(correction));
+        }
+    }
+}

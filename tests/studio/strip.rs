@@ -1,0 +1,207 @@
+//! The strip of genga: chosen, dragged, pinned, forbidden and held on the figures, and played under the pointer.
+
+use egui::{Key, Modifiers, PointerButton, Pos2, Rect, Shape, pos2, vec2};
+use egui_kittest::kittest::{NodeT, Queryable};
+
+use crate::harness::Table;
+
+/// Room at both sides of the strip, in points.
+const SIDE: f32 = 22.0;
+
+impl Table {
+    fn strip(&self) -> Rect {
+        self.canvas("Strip of genga")
+    }
+
+    /// The place on the strip at which a koma begins, at a share of the height.
+    fn on_strip(&self, koma: usize, share: f32) -> Pos2 {
+        let rect = self.strip();
+        let wide = rect.width() - 2.0 * SIDE;
+        let x = rect.min.x + SIDE + wide * koma as f32 / 92.0;
+        pos2(x, rect.min.y + share * rect.height())
+    }
+
+    /// What the strip says of itself: the drawing and the koma at the play head.
+    fn strip_says(&self) -> String {
+        let role = egui::accesskit::Role::Canvas;
+        let strip = self.harness.get_by_role_and_label(role, "Strip of genga");
+        strip.accesskit_node().value().unwrap()
+    }
+
+    fn click_at(&mut self, at: Pos2, button: PointerButton) {
+        self.harness.hover_at(at);
+        self.harness.run();
+        for pressed in [true, false] {
+            let modifiers = Modifiers::NONE;
+            self.harness.event(egui::Event::PointerButton { pos: at, button, pressed, modifiers });
+        }
+        self.harness.run();
+    }
+
+    /// Frames of the genga of the sheet at its default, by the keys of the window.
+    fn second_genga(&mut self) -> usize {
+        self.tap(Modifiers::NONE, Key::Home);
+        self.tap(Modifiers::NONE, Key::ArrowDown);
+        let says = self.strip_says();
+        let koma: usize = says.rsplit(' ').next().unwrap().parse().unwrap();
+        koma - 1
+    }
+
+    /// All points of what is drawn on the strip.
+    fn drawn_on_strip(&self) -> Vec<Pos2> {
+        let strip = self.strip();
+        let mut points = Vec::new();
+        for clipped in &self.harness.output().shapes {
+            if let Shape::Path(path) = &clipped.shape {
+                points.extend(path.points.iter().filter(|point| strip.contains(**point)));
+            }
+        }
+        points
+    }
+}
+
+#[test]
+fn a_click_on_a_figure_goes_to_its_genga_and_says_which() {
+    let mut table = Table::plain_kick();
+    let koma = table.second_genga();
+    table.tap(Modifiers::NONE, Key::Home);
+    assert_eq!(table.strip_says(), "genga 1, koma 1");
+    let beside = table.on_strip(koma, 0.5) + vec2(5.0, 0.0);
+    table.click_at(beside, PointerButton::Primary);
+    assert_eq!(table.strip_says(), format!("genga 2, koma {}", koma + 1));
+}
+
+#[test]
+fn a_figure_is_dragged_in_one_step() {
+    let mut table = Table::plain_kick();
+    let koma = table.second_genga();
+    let (from, to) = (table.on_strip(koma, 0.5), table.on_strip(koma + 2, 0.5) + vec2(2.0, 0.0));
+    table.drag(from, to);
+    let moves: Vec<(usize, usize)> =
+        table.edits().moves.iter().map(|moved| (moved.from.0, moved.to.0)).collect();
+    assert_eq!(moves, [(koma, koma + 2)]);
+    table.tap(Modifiers::COMMAND, Key::Z);
+    assert!(table.edits().is_empty(), "the whole drag was one step");
+}
+
+#[test]
+fn a_figure_is_pinned_forbidden_and_let_go_where_it_stands() {
+    let mut table = Table::plain_kick();
+    let koma = table.second_genga();
+    let at = table.on_strip(koma, 0.5);
+    let press = |table: &mut Table, name: &str| {
+        table.harness.hover_at(at);
+        table.harness.run_steps(2);
+        let strip = table.strip();
+        let buttons = table.harness.query_all_by_label(name);
+        let button = buttons.map(|node| node.rect()).find(|rect| strip.intersects(*rect));
+        let middle = button.unwrap_or_else(|| panic!("{name} is not on the figure")).center();
+        table.click_at(middle, PointerButton::Primary);
+    };
+    press(&mut table, "Pin");
+    assert_eq!(table.edits().pins.len(), 1);
+    press(&mut table, "Unpin");
+    assert!(table.edits().is_empty());
+    press(&mut table, "Forbid");
+    assert_eq!(table.edits().forbidden.len(), 1);
+}
+
+#[test]
+fn a_drawing_is_held_by_its_end() {
+    let mut table = Table::plain_kick();
+    let held = table
+        .harness
+        .get_by_role_and_label(egui::accesskit::Role::SpinButton, "Hold")
+        .accesskit_node()
+        .value();
+    let koma: usize = held.unwrap().split(' ').next().unwrap().parse().unwrap();
+    let (from, to) = (table.on_strip(koma, 0.95), table.on_strip(koma + 3, 0.95));
+    table.drag(from, to);
+    let holds: Vec<_> = table.edits().holds.iter().map(|hold| (hold.frame.0, hold.koma)).collect();
+    assert_eq!(holds, [(0, koma + 3)]);
+}
+
+#[test]
+fn the_menu_of_a_figure_has_the_same_acts() {
+    let mut table = Table::plain_kick();
+    let koma = table.second_genga();
+    table.click_at(table.on_strip(koma, 0.5), PointerButton::Secondary);
+    let pins: Vec<Rect> =
+        table.harness.query_all_by_label("Forbid").map(|node| node.rect()).collect();
+    assert!(pins.len() >= 2, "in the menu and in the panel: {pins:?}");
+    table.tap(Modifiers::NONE, Key::Escape);
+}
+
+#[test]
+fn under_the_pointer_a_figure_plays_to_the_next_genga_and_the_play_head_stays() {
+    let mut table = Table::plain_kick();
+    let koma = table.second_genga();
+    table.tap(Modifiers::NONE, Key::Home);
+    table.harness.hover_at(table.on_strip(koma, 0.5));
+    table.harness.step();
+    table.harness.step();
+    let still = table.drawn_on_strip();
+    // A step of the harness is a quarter of a second.
+    table.harness.run_steps(2);
+    assert_ne!(table.drawn_on_strip(), still);
+    assert_eq!(table.strip_says(), "genga 1, koma 1");
+    table.harness.remove_cursor();
+    table.harness.run();
+    let rest = table.drawn_on_strip();
+    table.harness.run_steps(2);
+    assert_eq!(table.drawn_on_strip(), rest);
+}
+
+#[test]
+fn the_strip_goes_to_an_action_and_back_to_the_whole() {
+    let mut table = Table::plain_kick();
+    table.turn("actions.split", "true");
+    let whole = table.drawn_on_strip();
+    let strip = table.strip();
+    let zoom = egui::Event::MouseWheel {
+        unit: egui::MouseWheelUnit::Point,
+        delta: vec2(0.0, 300.0),
+        modifiers: Modifiers::NONE,
+        phase: egui::TouchPhase::Move,
+        source: egui::MouseWheelSource::Wheel,
+    };
+    table.harness.hover_at(strip.center());
+    table.harness.event(zoom);
+    table.harness.remove_cursor();
+    table.harness.run_steps(8);
+    let near = table.drawn_on_strip();
+    assert_ne!(near, whole, "the wheel comes nearer");
+    table.tap(Modifiers::NONE, Key::Z);
+    assert_eq!(table.drawn_on_strip(), whole, "and a key shows all of it");
+    table.tap(Modifiers::NONE, Key::Z);
+    table.tap(Modifiers::NONE, Key::Z);
+    assert_eq!(table.drawn_on_strip(), whole);
+}
+
+#[test]
+fn a_change_out_of_view_is_brought_into_view() {
+    let mut table = Table::plain_kick();
+    let strip = table.strip();
+    let zoom = egui::Event::MouseWheel {
+        unit: egui::MouseWheelUnit::Point,
+        delta: vec2(0.0, 500.0),
+        modifiers: Modifiers::NONE,
+        phase: egui::TouchPhase::Move,
+        source: egui::MouseWheelSource::Wheel,
+    };
+    table.harness.hover_at(strip.right_center() - vec2(30.0, 0.0));
+    table.harness.event(zoom);
+    table.harness.run_steps(8);
+    table.harness.remove_cursor();
+    table.harness.run();
+    let end = table.drawn_on_strip();
+    // A change at the beginning, made from elsewhere than the keyboard's play head.
+    table.harness.state_mut().turn("keys.min_price", "7.5").unwrap();
+    table.harness.run();
+    assert_eq!(table.drawn_on_strip(), end, "no change moves nothing");
+    let role = egui::accesskit::Role::SpinButton;
+    let held = table.harness.get_by_role_and_label(role, "Hold").rect().center();
+    table.drag(held, held + vec2(60.0, 0.0));
+    assert!(!table.edits().holds.is_empty());
+    assert_ne!(table.drawn_on_strip(), end, "the first change is in view");
+}
