@@ -71,10 +71,11 @@ pub(super) struct Reading {
     /// For a motion without one; an .asf beside its .amc is found.
     #[arg(long, value_name = "FILE", help_heading = READING)]
     skeleton: Option<PathBuf>,
-    /// Camera of the take, in a file of its own (.vmd, .glb, .gltf).
+    /// Camera of the take (.vmd, .glb, .gltf).
     ///
-    /// Its moves fill the CAMERA column. The keys of a VMD are written in the sheet's time, beside the motion for MMD.
-    #[arg(long, value_name = "FILE", hide_short_help = true, help_heading = READING)]
+    /// In a file of its own, as in MMD. Its moves fill the CAMERA column. The keys of a VMD are written in the sheet's
+    /// time, beside the motion for MMD.
+    #[arg(long, value_name = "FILE", help_heading = READING)]
     pub(super) camera_work: Option<PathBuf>,
     /// Keep frames that fly off, and broken ends.
     ///
