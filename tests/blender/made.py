@@ -105,4 +105,4 @@ def check_keys(action):
 def marks_of():
     """The markers that pin or forbid: name and frame."""
     markers = bpy.context.scene.timeline_markers
-    return sorted((marker.name, marker.frame) for marker in markers if not marker.name[0].isdigit())
+    return sorted((genga.pins.plain(marker.name), marker.frame) for marker in markers if not marker.name[0].isdigit())

@@ -99,7 +99,7 @@ def dragged():
     forbid = markers.new("forbid", frame=key)
     watch.look()
     assert key not in keys(action), (key, keys(action))
-    forbid[take.OWNER] = "another armature"
+    forbid.name = "forbid [another]"
     watch.look()
     assert keys(action) == plain
     # A number that is named pin stays where it is.
@@ -116,8 +116,7 @@ def kept_in_the_file():
     find(thing)
     thing.genga.on = "3"
     told = thing.genga.told
-    pin = bpy.context.scene.timeline_markers.new("pin", frame=33)
-    pin[take.OWNER] = thing.genga.own_id
+    bpy.context.scene.timeline_markers.new("pin contact [kick]", frame=33)
     thing.name = "renamed"
     file = str(FOLDER / "kept.blend")
     assert bpy.ops.wm.save_as_mainfile(filepath=file) == {"FINISHED"}
@@ -131,6 +130,8 @@ def kept_in_the_file():
     thing.genga.on = "1"
     assert thing.animation_data.action == action and len(action[take.BEGINS]) > drawings, "a knob after opening"
     assert 33 in keys(action) and len(numbers()) == len(action.pose_markers), "its own markers"
+    pins = lambda: [marker.name for marker in bpy.context.scene.timeline_markers if not marker.name[0].isdigit()]
+    assert pins() == ["pin contact [renamed]"], pins()
     thing.name = "again"
     thing.genga.on = "2"
     assert len(bpy.data.actions) == 2 and all(name.endswith(" again") for name in numbers()), numbers()
@@ -143,7 +144,7 @@ def kept_in_the_file():
     thing = bpy.data.objects["again"]
     action = thing.animation_data.action
     watch.look()
-    next(marker for marker in bpy.context.scene.timeline_markers if marker.name == "pin").frame = 35
+    next(marker for marker in bpy.context.scene.timeline_markers if marker.name == "pin contact [again]").frame = 35
     watch.look()
     assert 35 in keys(action) and 33 not in keys(action), "a marker after opening"
     bpy.ops.wm.open_mainfile(filepath=file)
@@ -167,8 +168,11 @@ def copied():
     copy.genga.on = "1"
     other = find(copy)
     assert other != action and made.all_keys(action) == first and copy.genga.own_id != thing.genga.own_id
-    owners = {marker[take.OWNER] for marker in bpy.context.scene.timeline_markers}
-    assert owners == {thing.genga.own_id, copy.genga.own_id}
+    count = lambda name: [marker.name.partition(" ")[2] for marker in bpy.context.scene.timeline_markers].count(name)
+    assert (count("kick"), count("kick.001")) == (len(action.pose_markers), len(other.pose_markers))
+    bpy.ops.genga.mark(what="PIN")
+    assert [marker.name for marker in marks.of(bpy.context.scene, copy)] == ["pin [kick.001]"]
+    assert marks.of(bpy.context.scene, thing) == []
     say("a copy has a sheet of its own")
 
 

@@ -191,6 +191,9 @@ class Corrections(unittest.TestCase):
         self.assertEqual(read.of_clip(1), (["11", "39:contact"], ["49..50", "59..66"]))
         self.assertEqual(read.with_pins([40, 41]).of_clip(0)[0], ["12", "40:contact", "41"])
         self.assertEqual(pins.read([("固定", 3), ("禁止 から", 5), ("禁止 まで", 8)]), ((((3, ""),)), ((5, 9),)))
+        named = pins.owned("pin contact", "A [1]")
+        self.assertEqual((named, pins.owner(named), pins.plain(named)), ("pin contact [A (1)]", "A (1)", "pin contact"))
+        self.assertEqual((pins.owned(named, "B"), pins.owner("pin"), pins.plain("forbid from")), ("pin contact [B]", "", "forbid from"))
         self.assertEqual([pins.is_mark(name) for name in ("pin", "FORBID from", "pinned", "", "禁止")], [True, True, False, False, True])
 
     def test_what_a_marker_does_not_say_is_refused_in_words(self):

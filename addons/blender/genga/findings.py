@@ -43,9 +43,8 @@ def put(scene, thing, take, finding):
     sheet = finding.sheet()
     turns = finding.turns(sheet)
     on_sheet = apply.apply(thing, take, finding.sampled, sheet, turns)
-    marks.remove_numbers(scene, thing)
-    if thing.genga.markers:
-        marks.set_numbers(scene, thing, apply.numbered(on_sheet.exposures, on_sheet.frames))
+    numbered = apply.numbered(on_sheet.exposures, on_sheet.frames) if thing.genga.markers else ()
+    marks.set_numbers(scene, thing, numbered)
     told = [*finding.told(), *finding.sampled.told()]
     left_out = [*fit.left_out(sheet, holds=True), *on_sheet.left_out]
     if fit.can_hold(sheet) and not turns:

@@ -110,6 +110,7 @@ class GengaKnobs(Timed, PropertyGroup):
     """The settings of an armature."""
 
     own_id: StringProperty(options={"HIDDEN"}, description="The armature's own id, whatever its name")
+    marked_as: StringProperty(options={"HIDDEN"}, description="The name that the armature's markers bear")
     told: StringProperty(options={"HIDDEN"}, description="Messages of the last run, one a line")
 
     genga: IntProperty(

@@ -3,11 +3,12 @@
 
 import bisect
 
+import bpy
 import numpy as np
 
 from . import pins, stepping
 from .refused import Refused
-from .take import BEGINS, OWNER, PLACES, STEPPED
+from .take import BEGINS, PLACES, STEPPED
 
 
 def marked(take):
@@ -23,15 +24,22 @@ def marked(take):
     return sorted(frames)
 
 
+def names(thing):
+    """Returns the names by which markers say that they are an armature's: its own, and that before it was renamed."""
+    before = thing.genga.marked_as
+    is_taken = before != thing.name and before in bpy.data.objects
+    return {pins.clean(name) for name in (thing.name, before) if name and not (is_taken and name == before)}
+
+
 def of(scene, thing):
-    """Returns the markers that pin and forbid for an armature: its own, and those that a person made for all."""
-    is_its = lambda marker: marker.get(OWNER, "") in ("", thing.genga.own_id)
-    return [marker for marker in scene.timeline_markers if pins.is_mark(marker.name) and is_its(marker)]
+    """Returns the markers that pin and forbid for an armature: its own, and those that are for all."""
+    own = {"", *names(thing)}
+    return [marker for marker in scene.timeline_markers if pins.is_mark(marker.name) and pins.owner(marker.name) in own]
 
 
 def read(scene, thing):
     """Returns the corrections that an armature's markers say."""
-    return pins.read([(marker.name, marker.frame) for marker in of(scene, thing)])
+    return pins.read([(pins.plain(marker.name), marker.frame) for marker in of(scene, thing)])
 
 
 def add(scene, thing, named):
@@ -39,13 +47,12 @@ def add(scene, thing, named):
     there = {(pins.first_word(marker.name), marker.frame) for marker in of(scene, thing)}
     for name, frame in named:
         if (pins.first_word(name), frame) not in there:
-            make(scene, thing, name, frame)
+            make(scene, pins.owned(name, thing.name), frame)
 
 
-def make(scene, thing, name, frame):
-    """Makes a marker for an armature. It is not selected, so that a person selects only what is meant."""
-    marker = scene.timeline_markers.new(name, frame=frame)
-    marker[OWNER], marker.select = thing.genga.own_id, False
+def make(scene, name, frame):
+    """Makes a marker. It is not selected, so that a person selects only what is meant."""
+    scene.timeline_markers.new(name, frame=frame).select = False
 
 
 def clear(scene, thing):
@@ -102,15 +109,14 @@ def of_take(action, frame):
 
 
 def set_numbers(scene, thing, numbered):
-    """Replaces an object's timeline markers with numbers by those of its genga."""
-    remove_numbers(scene, thing)
+    """Replaces an armature's timeline markers with numbers by those of its genga, and gives all its markers its name."""
+    own = names(thing)
+    for marker in list(scene.timeline_markers):
+        number, _, name = marker.name.partition(" ")
+        if number.isdigit() and pins.clean(name) in own:
+            scene.timeline_markers.remove(marker)
+        elif pins.is_mark(marker.name) and pins.owner(marker.name) in own:
+            marker.name = pins.owned(marker.name, thing.name)
     for number, frame in numbered:
-        make(scene, thing, f"{number} {thing.name}", frame)
-
-
-def remove_numbers(scene, thing):
-    def is_its(marker):
-        return marker.get(OWNER) == thing.genga.own_id and marker.name.partition(" ")[0].isdigit()
-
-    for marker in [marker for marker in scene.timeline_markers if is_its(marker)]:
-        scene.timeline_markers.remove(marker)
+        make(scene, f"{number} {thing.name}", frame)
+    thing.genga.marked_as = thing.name

@@ -2,9 +2,11 @@
 """A person's corrections: pinned and forbidden frames, as the names of markers say. Independent of Blender.
 
 A marker `pin` or `pin contact` pins its frame. A marker `forbid` forbids its frame, and `forbid from` with the next
-`forbid to` all frames from one to the other.
+`forbid to` all frames from one to the other. The name of an armature in brackets behind it, `pin [Armature]`, says whose
+it is; without one it is for all.
 """
 
+import re
 from typing import NamedTuple
 
 from .refused import Refused
@@ -12,6 +14,7 @@ from .refused import Refused
 # First words of such markers.
 PIN, FORBID = ("pin", "固定"), ("forbid", "禁止")
 FROM, TO = ("from", "から"), ("to", "まで")
+OWNED = re.compile(r"\s*\[([^\[\]]*)\]\s*$")
 
 
 class Corrections(NamedTuple):
@@ -34,6 +37,26 @@ class Corrections(NamedTuple):
 def is_mark(name):
     """Reports whether a marker of this name pins or forbids."""
     return first_word(name) in (*PIN, *FORBID)
+
+
+def owner(name):
+    """Returns the name of the armature that a marker is for, or "" if it is for all."""
+    found = OWNED.search(name)
+    return found[1] if found else ""
+
+
+def plain(name):
+    """Returns what a marker says, whoever it is for."""
+    return OWNED.sub("", name)
+
+
+def owned(name, thing):
+    """Returns the name of a marker for an armature. Brackets in the armature's name would end it."""
+    return f"{plain(name)} [{clean(thing)}]"
+
+
+def clean(thing):
+    return thing.replace("[", "(").replace("]", ")")
 
 
 def first_word(name):

@@ -8,7 +8,7 @@ from .stepping import curves
 STEPPED = "genga_take"
 # The take's action; the first frame of each drawing, and the frame of the take that it shows.
 SOURCE, BEGINS, PLACES = "genga_source", "genga_begins", "genga_places"
-# The id of the armature that an action or a marker is for.
+# The id of the armature that an action is for.
 OWNER = "genga_object"
 # What a made action holds: the drawings of the sheet, or few keys with curves.
 KIND, KOMA, KEYS = "genga_kind", "koma", "keys"

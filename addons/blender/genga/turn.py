@@ -6,7 +6,7 @@ from bpy.types import Operator
 
 from . import apply, knobs, marks, pins, presets
 from .refused import Refused, Reported
-from .subject import armature_of, editable, give_id
+from .subject import armature_of, editable
 from .take import KOMA, STEPPED, Take, show
 
 # Largest number of frames that are pinned without a question.
@@ -92,7 +92,6 @@ class GENGA_OT_mark(OfArmature, Operator):
     def run(self, context):
         thing, scene = editable(context), context.scene
         frames = marks.chosen(context, thing)
-        give_id(thing)
         if self.what in ("ONLY", "CLEAR"):
             marks.clear(scene, thing)
         if self.what in ("PIN", "ONLY"):
