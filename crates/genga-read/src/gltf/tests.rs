@@ -115,7 +115,7 @@ fn a_bare_tree_is_what_moves_and_what_hangs_on_it() {
             "Y up",
             "metres",
             "animation walk, sampled 24 a second",
-            "left out: curves of shapes or other things (1)"
+            "left out: the morphs of knee, whose shape is the body's"
         ]
     );
     let finer = Options { fps: FrameRate::new(48.0).ok(), ..Options::default() };
@@ -351,7 +351,7 @@ fn a_document_that_was_changed_is_read_or_refused() {
 }
 
 #[test]
-fn what_moves_in_the_tree_of_a_skin_is_read_and_other_things_are_counted() {
+fn what_moves_in_the_tree_of_a_skin_is_read_and_a_thing_without_its_shape_is_named() {
     let mut partly = document("LINEAR");
     // The skin has only the hip. A sword on the hip, a ball in another tree and a camera move too.
     partly["skins"] = json!([{ "joints": [1] }]);
@@ -374,7 +374,9 @@ fn what_moves_in_the_tree_of_a_skin_is_read_and_other_things_are_counted() {
     let left_out = read.found.iter().find(|found| found.what == "left out").unwrap();
     assert_eq!(
         left_out.is,
-        "left out: curves of shapes or other things (1), cameras (1), \
-         nodes that move beside the body: sword, ball, eye, empty (4)"
+        "left out: the morphs of knee, whose shape is the body's, \
+         the shape of sword (meshes[0]: there is none), \
+         the shape of ball (meshes[0]: there is none), \
+         the shape of eye (cameras[0]: there is none)"
     );
 }
