@@ -1,5 +1,5 @@
-//! The cost of a frame of the studio, and of a turned knob until the picture has changed, without a window: `cargo bench
-//! -p genga-benches --features studio --bench studio`.
+//! The cost of a frame of the studio, and of a turned knob until the picture has changed, without a window:
+//! `cargo bench -p genga-benches --features studio --bench studio`.
 //!
 //! One round is the chain from that knob on, and the frame that shows the result with its triangles, in a window of
 //! 1440 × 900. A frame at 60 Hz has 16.7 ms.

@@ -90,26 +90,43 @@ impl Strip {
         }
         let layout = Layout::new(rect, self.window.scale(inside));
         let figured = choice::choose(&layout, shown);
-        let now = ui.input(|input| input.time);
-        // The buttons on a figure lie over the strip, and are as much a part of it.
-        let is_over = ui.rect_contains_pointer(rect) && !response.dragged();
-        let at = ui.input(|input| input.pointer.hover_pos()).filter(|_| is_over);
-        let cell = at.and_then(|at| layout.cell(at, &figured, shown));
-        self.hovered = Passage::under(cell, self.hovered.take(), now);
+        self.hover(ui, &layout, &figured, response.dragged(), shown);
         self.hand.handle(&response, &layout, &figured, shown, commands);
         self.draw(ui, &layout, &figured, (shown, difference), (orbit, player));
-        if let Some(passage) = &self.hovered {
-            figures::buttons(ui, passage, &layout, shown, commands);
-            if let Some(wait) = passage.wait(now, shown) {
-                ui.ctx().request_repaint_after_secs(wait);
-            }
-        }
+        self.play(ui, &layout, shown, commands);
         name(&response, shown);
         response.context_menu(|ui| match &self.hand.asked {
             Some(key) => key_menu::show(ui, key, shown.words, commands),
             None => key_menu::show_none(ui, shown, commands),
         });
         ui.advance_cursor_after_rect(rect);
+    }
+
+    /// Notes the genga under the pointer.
+    fn hover(
+        &mut self,
+        ui: &Ui,
+        layout: &Layout,
+        figured: &[Figured],
+        is_dragged: bool,
+        shown: &Shown<'_>,
+    ) {
+        // The buttons on a figure lie over the strip, and are as much a part of it.
+        let is_over = ui.rect_contains_pointer(layout.rect) && !is_dragged;
+        let at = ui.input(|input| input.pointer.hover_pos()).filter(|_| is_over);
+        let cell = at.and_then(|at| layout.cell(at, figured, shown));
+        let now = ui.input(|input| input.time);
+        self.hovered = Passage::under(cell, self.hovered.take(), now);
+    }
+
+    /// Shows the buttons of the genga under the pointer, and asks for a frame when its passage has another koma.
+    fn play(&self, ui: &mut Ui, layout: &Layout, shown: &Shown<'_>, commands: &mut Vec<Command>) {
+        let Some(passage) = &self.hovered else { return };
+        figures::buttons(ui, passage, layout, shown, commands);
+        let now = ui.input(|input| input.time);
+        if let Some(wait) = passage.wait(now, shown) {
+            ui.ctx().request_repaint_after_secs(wait);
+        }
     }
 
     /// Shows the action at the play head if everything is in view, else everything.

@@ -1,6 +1,6 @@
 //! Pointer input on the strip (手): drags a genga by its figure or a hold by its end, else the play head.
 
-use egui::{CursorIcon, PointerButton, Response};
+use egui::{CursorIcon, PointerButton, Pos2, Response};
 
 use super::choice::Figured;
 use super::layout::Layout;
@@ -37,11 +37,7 @@ impl Hand {
         let column = shown.column();
         let origin = response.ctx.input(|input| input.pointer.press_origin()).unwrap_or(at);
         if response.drag_started_by(PointerButton::Primary) {
-            let key = layout.cell(origin, figured, shown).and_then(|cell| column.cells[cell].key);
-            self.held = match layout.ending(origin, shown) {
-                Some(cell) => Some(Held::end_of(cell, shown)),
-                None => key.map(Held::key),
-            };
+            self.held = grasped(origin, layout, figured, shown);
         }
         let under = layout.cell(at, figured, shown);
         if response.secondary_clicked() {
@@ -62,6 +58,17 @@ impl Hand {
         }
         if response.drag_stopped() {
             self.held = None;
+        }
+    }
+}
+
+/// What is grabbed at a position: the end of a hold, or the genga of a figure.
+fn grasped(at: Pos2, layout: &Layout, figured: &[Figured], shown: &Shown<'_>) -> Option<Held> {
+    match layout.ending(at, shown) {
+        Some(cell) => Some(Held::end_of(cell, shown)),
+        None => {
+            let cell = layout.cell(at, figured, shown)?;
+            shown.column().cells[cell].key.map(Held::key)
         }
     }
 }
