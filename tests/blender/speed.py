@@ -13,7 +13,7 @@ FRAMES = int(sys.argv[1]) if len(sys.argv) > 1 else 10_000
 BONES = int(sys.argv[2]) if len(sys.argv) > 2 else 60
 
 genga = addon.load()
-from genga_addon import apply, findings, sample, stepping, take  # noqa: E402
+from genga_addon import findings, sample, stepping, take  # noqa: E402
 from genga_addon.run import Finding  # noqa: E402
 
 

@@ -10,7 +10,8 @@ from .refused import Refused
 
 def armature_of(context):
     """Returns the active armature, or the one that moves the active mesh; None if there is none."""
-    thing = context.active_object
+    # Of the view layer, because a timer has no window with an active object.
+    thing = context.view_layer.objects.active
     while thing is not None and thing.type != "ARMATURE":
         thing = thing.find_armature() or thing.parent
     return thing
