@@ -20,6 +20,7 @@ mod method;
 mod moving;
 mod ssd;
 mod study_chart;
+mod versions;
 
 const GENGA: &str = "#c83210";
 const END: &str = "#30343c";

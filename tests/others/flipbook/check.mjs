@@ -7,6 +7,7 @@ import { chromium } from "playwright-core";
 const [page_path, folder] = process.argv.slice(2);
 const text = readFileSync(page_path, "utf8");
 const take = JSON.parse(text.match(/<script type="application\/json" id="take">(.*?)<\/script>/s)[1]);
+const [sheet] = take.sheets;
 assert.ok(!/https?:\/\//.test(text), "the page names no address");
 
 const browser = await chromium.launch({
@@ -23,16 +24,16 @@ page.on("request", (request) => asked.push(request.url()));
 await page.goto(pathToFileURL(page_path).href);
 
 // The drawing on a koma, by the sheet and not by the player.
-const cellOf = (koma) => take.cells.find(([, begin, held]) => begin <= koma && koma < begin + held);
-const isKey = ([drawing]) => take.drawings[drawing].role !== "inbetween";
+const cellOf = (koma) => sheet.cells.find(([, begin, held]) => begin <= koma && koma < begin + held);
+const isKey = ([drawing]) => sheet.drawings[drawing].role !== "inbetween";
 const last = take.koma - 1;
 
 async function shows(koma, what, drawing = cellOf(koma)[0]) {
   assert.equal(await page.textContent("#koma"), `${koma + 1} / ${take.koma}`, `${what}: the koma`);
-  assert.equal(await page.textContent("#drawing"), `${take.column}${drawing + 1}`, `${what}: the drawing`);
+  assert.equal(await page.textContent("#number b"), `${sheet.column}${drawing + 1}`, `${what}: the drawing`);
   assert.equal(await page.inputValue("#scrub"), String(koma + 1), `${what}: the slider`);
-  const pressed = take.drawings[drawing].genga;
-  const role = await page.textContent("#role");
+  const pressed = sheet.drawings[drawing].genga;
+  const role = await page.textContent("#number span");
   assert.equal(/\d+$/.exec(role)?.[0] ?? null, pressed === null ? null : String(pressed), `${what}: ${role}`);
 }
 const press = (key) => page.keyboard.press(key);
@@ -51,14 +52,14 @@ await press("ArrowLeft");
 await shows(within(last - 1), "←");
 await press("Home");
 await shows(0, "Home");
-for (const cell of take.cells.slice(1)) {
+for (const cell of sheet.cells.slice(1)) {
   await press("ArrowDown");
   await shows(cell[1], "↓");
 }
 await press("ArrowUp");
-await shows(take.cells.at(-2)?.[1] ?? 0, "↑");
+await shows(sheet.cells.at(-2)?.[1] ?? 0, "↑");
 await press("Home");
-for (const cell of take.cells.slice(1).filter(isKey)) {
+for (const cell of sheet.cells.slice(1).filter(isKey)) {
   await press("Shift+ArrowRight");
   await shows(cell[1], "shift →");
 }
@@ -70,7 +71,7 @@ const middle = Math.floor(take.koma / 2);
 await page.fill("#scrub", String(middle + 1));
 await shows(middle, "the slider");
 await press("k");
-await shows(middle, "genga only", take.cells.filter((cell) => cell[1] <= middle && isKey(cell)).at(-1)[0]);
+await shows(middle, "genga only", sheet.cells.filter((cell) => cell[1] <= middle && isKey(cell)).at(-1)[0]);
 await press("k");
 
 // Pictures change with what is asked for, and come back.
@@ -137,4 +138,4 @@ const files = asked.filter((address) => !address.startsWith("file:"));
 assert.deepEqual(files, [], "no request leaves the machine");
 assert.deepEqual(said, [], "nothing is said on the console");
 await browser.close();
-console.log(`flip-book: ${take.koma} koma, ${take.drawings.length} drawings, keys and pictures as they should be; ${asked.length} file read`);
+console.log(`flip-book: ${take.koma} koma, ${sheet.drawings.length} drawings, keys and pictures as they should be; ${asked.length} file read`);

@@ -1,21 +1,27 @@
-// The sheet: as bars under the stage, and as the column of the paper that follows.
+// The sheets: as bars under the stage, and as the columns of the paper that follow.
 const ROW = 20;
 
 function roleColor(role, colors) {
   return { genga: colors.genga, end: colors.end, inbetween: colors.between }[role];
 }
 
-function drawBars(canvas, take, koma, colors) {
+// A row of bars a sheet; between two of them a line where they differ.
+function drawBars(canvas, take, reels, koma, colors) {
   const [ctx, width, height] = prepared(canvas);
   const one = width / take.koma;
-  for (const [drawing, begin, held] of take.cells) {
-    const role = take.drawings[drawing].role;
-    ctx.globalAlpha = role === "inbetween" ? 0.55 : 1;
-    ctx.fillStyle = roleColor(role, colors);
-    ctx.fillRect(begin * one, 4, Math.max(held * one - (one >= 3 ? 1 : 0), 0.5), height - 8);
-  }
+  const high = reels.length === 1 ? height - 8 : 9;
+  reels.forEach((reel, at) => {
+    const top = reels.length === 1 ? 4 : at * (height - high - 4) + 2;
+    for (const [drawing, begin, held] of reel.cells) {
+      const role = reel.drawings[drawing].role;
+      ctx.globalAlpha = role === "inbetween" ? 0.55 : 1;
+      ctx.fillStyle = roleColor(role, colors);
+      ctx.fillRect(begin * one, top, Math.max(held * one - (one >= 3 ? 1 : 0), 0.5), high);
+    }
+  });
   ctx.globalAlpha = 1;
   ctx.fillStyle = colors.ink;
+  for (const [begin, held] of take.differences ?? []) ctx.fillRect(begin * one, height / 2 - 2, held * one, 4);
   ctx.fillRect((koma + 0.5) * one - 1, 0, 2, height);
 }
 
@@ -24,14 +30,15 @@ function firstRow(koma, take, rows) {
   return Math.max(0, Math.min(koma - Math.floor(rows / 2), take.koma - Math.floor(rows)));
 }
 
-function drawColumn(canvas, take, cellOf, koma, colors) {
+// Where the column of a sheet is, as a share of the width.
+const columnOf = (reels, at) => (reels.length === 1 ? 0.62 : [0.42, 0.79][at]);
+
+function drawColumn(canvas, take, reels, koma, colors) {
   const [ctx, width, height] = prepared(canvas);
   const first = firstRow(koma, take, height / ROW);
-  const middle = 0.62 * width;
   ctx.textBaseline = "middle";
   for (let at = first; at < take.koma && (at - first) * ROW < height; at++) {
     const y = (at - first) * ROW;
-    const [drawing, begin, held] = take.cells[cellOf[at]];
     if (at === koma) {
       ctx.fillStyle = colors.here;
       ctx.fillRect(0, y, width, ROW);
@@ -45,14 +52,31 @@ function drawColumn(canvas, take, cellOf, koma, colors) {
     ctx.font = "11px sans-serif";
     ctx.textAlign = "right";
     ctx.fillStyle = colors.faint;
-    ctx.fillText(at + 1, 0.25 * width, y + 0.55 * ROW);
-    if (at === begin) drawMark(ctx, take.drawings[drawing], drawing + 1, [middle, y + 0.5 * ROW], colors);
-    else drawHold(ctx, [middle, y], at === begin + held - 1, colors);
+    ctx.fillText(at + 1, reels.length === 1 ? 0.25 * width : 30, y + 0.55 * ROW);
+    if (isDifferent(take, at)) {
+      ctx.fillStyle = colors.ink;
+      ctx.textAlign = "center";
+      ctx.fillText("≠", 44, y + 0.55 * ROW);
+    }
+    reels.forEach((reel, of) => drawCell(ctx, reel, at, [columnOf(reels, of) * width, y], colors));
   }
 }
 
+function isDifferent(take, koma) {
+  return (take.differences ?? []).some(([begin, held]) => begin <= koma && koma < begin + held);
+}
+
+// The drawing's mark where it begins, and a line as long as its own sheet holds it.
+function drawCell(ctx, reel, koma, [x, y], colors) {
+  const cell = reel.cell(koma);
+  if (cell === undefined) return;
+  const [drawing, begin, held] = reel.cells[cell];
+  if (koma === begin) drawMark(ctx, reel.drawings[drawing], [x, y + 0.5 * ROW], colors);
+  else if (koma < begin + held) drawHold(ctx, [x, y], koma === begin + held - 1, colors);
+}
+
 // As the sheet's CELL column has it: the drawing's number, in a circle if it is a key.
-function drawMark(ctx, drawing, number, [x, y], colors) {
+function drawMark(ctx, drawing, [x, y], colors) {
   const color = roleColor(drawing.role, colors);
   ctx.textAlign = "center";
   ctx.font = drawing.role === "inbetween" ? "12px sans-serif" : "bold 11px sans-serif";
@@ -65,7 +89,7 @@ function drawMark(ctx, drawing, number, [x, y], colors) {
     if (drawing.pinned) ctx.fill();
   }
   ctx.fillStyle = drawing.role === "inbetween" ? colors.ink : drawing.pinned ? colors.paper : color;
-  ctx.fillText(number, x, y + 1);
+  ctx.fillText(drawing.number, x, y + 1);
   if (drawing.omitted > 0) {
     ctx.fillStyle = colors.genga;
     ctx.font = "10px sans-serif";

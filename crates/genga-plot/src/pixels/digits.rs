@@ -87,9 +87,20 @@ impl Digits {
         Self { digits, size, color }
     }
 
+    /// Distance from one digit to the next, in px.
+    fn advance(&self) -> f64 {
+        (ADVANCE * self.size).ceil()
+    }
+
+    /// Returns the width of a number, in px.
+    #[cfg(feature = "pictures")]
+    pub(crate) fn width(&self, number: usize) -> f64 {
+        self.advance() * number.to_string().len() as f64
+    }
+
     /// Writes a number that ends at a point on its base line.
     pub(crate) fn write(&self, pixels: &mut Pixels, number: usize, (x, base): Point) {
-        let advance = (ADVANCE * self.size).ceil();
+        let advance = self.advance();
         let size = self.size as f32;
         let stroke = Stroke {
             width: BOLD * size,

@@ -3,35 +3,40 @@
 use glam::DVec3;
 
 use super::Preview;
-use crate::canvas::{Align, Canvas, Inks, Type};
-use crate::drawings::{ShownDrawing, drawn_poses, seconds_and_koma, shown_drawings};
+use super::backdrop::{Backdrop, Room};
+use crate::canvas::Inks;
+use crate::drawings::drawn_poses;
 use crate::figure::Figure;
 use crate::paper_point::Point;
 use crate::pixels::{Digits, Pixels};
 use crate::points::{Posing, Showing};
+use crate::side_by_side::{OnScreen, Reel, SideBySide};
 use crate::stage::{Bounds, Stage};
 use crate::style;
 use genga::error::Error;
-use genga::motion::Composite;
-use genga::sheet::{Layer, Role, Sheet, Source};
-use genga::time::Clock;
+use genga::sheet::Source;
 
 /// Space above the figures and below the floor, in px.
 const TOP: f64 = 44.0;
-const BOTTOM: f64 = 70.0;
-const PAD: f64 = 12.0;
-/// Bars of the sheet: their height, and the distance of their top from the lower edge, in px.
-const BARS: (f64, f64) = (10.0, 40.0);
+pub(super) const BOTTOM: f64 = 70.0;
+pub(super) const PAD: f64 = 12.0;
 /// Ratio of width to height, relative to a panel's, above which the camera follows a motion.
 const FAR: f64 = 1.6;
+/// Distance of a number's circle from the edge of its panel, and of its middle from the base line, in px.
+const NUMBER: (f64, f64) = (16.0, 5.5);
 
 /// The fixed parts of the picture, and the pixels of the current koma.
 pub(super) struct Scene<'a> {
-    posing: Posing<'a>,
-    showing: Showing<'a>,
-    clock: Clock,
-    layer: &'a Layer,
-    /// Stages of source and result.
+    /// The source, if it is beside the sheet.
+    source: Option<Posing<'a>>,
+    reels: &'a [Reel<'a>],
+    /// Poses of each reel.
+    showing: Vec<Showing<'a>>,
+    /// Number of the drawing on each koma of each reel.
+    numbers: Vec<Vec<usize>>,
+    /// Whether two versions differ, for each koma.
+    differences: Vec<bool>,
+    /// Stages of both panels.
     stages: [Stage; 2],
     /// Whether the camera follows the root.
     follows: bool,
@@ -41,32 +46,35 @@ pub(super) struct Scene<'a> {
     genga: Digits,
     plain: Digits,
     size: (f64, f64),
-    koma: usize,
-    /// Blank koma before the first drawing.
-    before: usize,
+    bars: Room,
 }
 
 impl<'a> Scene<'a> {
     pub(super) fn new(
         preview: &Preview,
-        cut: &str,
-        (composite, figure): (&'a Composite<'a>, &'a Figure),
-        sheet: &Sheet,
+        (cut, shown): (&str, &SideBySide<'_>),
+        (reels, figure): (&'a [Reel<'a>], &'a Figure),
         koma: usize,
     ) -> Result<Self, Error> {
         let size = (f64::from(preview.width), f64::from(preview.height));
-        let (clip, layer) = (composite.clip(), composite.layer());
-        let (stage, follows) = stage(preview, composite, figure, size);
+        let (stage, follows) = stage(preview, reels, figure, size);
         let at = |panel: f64| (size.0 * (0.25 + 0.5 * panel), size.1 - BOTTOM);
         let stages = [0.0, 1.0].map(|panel| Stage { at: at(panel), ..stage.clone() });
-        let mut cells = shown_drawings(layer);
-        cells.iter_mut().for_each(|cell| cell.koma += sheet.blank.before);
-        let backdrop = Pixels::from_svg(&backdrop(cut, sheet, layer, &cells, koma, size, follows))?;
+        let differences = shown.differences()?;
+        let backdrop =
+            Backdrop { cut, shown, reels, differences: &differences, koma, size, follows };
+        let bars = backdrop.room();
+        let backdrop = Pixels::from_svg(&backdrop.draw())?;
+        let marks = figure.marks();
+        let source = matches!(shown, SideBySide::Source(..))
+            .then(|| Posing::new(reels[0].composite.clip(), marks));
+        let numbers = |reel: &Reel<'_>| reel.named.koma().map(|drawing| drawing + 1).collect();
         Ok(Self {
-            posing: Posing::new(clip, figure.marks()),
-            showing: Showing::new(composite, figure.marks()),
-            clock: sheet.clock,
-            layer,
+            source,
+            reels,
+            showing: reels.iter().map(|reel| Showing::new(&reel.composite, marks)).collect(),
+            numbers: reels.iter().map(numbers).collect(),
+            differences,
             stages,
             follows,
             pixels: backdrop.clone(),
@@ -75,35 +83,73 @@ impl<'a> Scene<'a> {
             genga: Digits::new(style::TITLE, style::GENGA),
             plain: Digits::new(style::TITLE, style::INBETWEEN),
             size,
-            koma,
-            before: sheet.blank.before,
+            bars,
         })
     }
 
-    /// Draws a koma of the cut on which a drawing is shown, with its number, or none.
-    pub(super) fn draw(&mut self, koma: usize, drawing: Option<(usize, usize)>) -> &Pixels {
+    /// Draws a koma of the film.
+    pub(super) fn draw(&mut self, koma: usize) -> &Pixels {
         self.pixels.copy(&self.backdrop);
-        if let Some(drawing) = drawing {
-            self.drawing(koma - self.before, drawing);
+        let reels = self.reels;
+        for (at, reel) in reels.iter().enumerate() {
+            let Some(shown) = reel.at(koma) else { continue };
+            // A sheet alone stands in the second panel, beside its source.
+            let panel = at + 2 - reels.len();
+            if panel != at {
+                self.source(shown);
+            }
+            self.drawing((panel, at), shown);
         }
-        let height = self.size.1;
-        self.small.write(&mut self.pixels, koma + 1, (PAD + 68.0, height - 10.0));
-        let bar = bar_width(self.size, self.koma);
-        let x = PAD + bar * (koma as f64 + 0.5);
-        let (high, up) = BARS;
-        let head = (x - 1.0, height - up - 4.0);
-        self.pixels.rect(head, (2.0, high + 8.0), style::INK);
+        if self.differences.get(koma) == Some(&true) {
+            self.unlike();
+        }
+        self.small.write(&mut self.pixels, koma + 1, (PAD + 68.0, self.size.1 - 10.0));
+        let (head, high) = self.bars.here(koma);
+        self.pixels.rect(head, (2.0, high), style::INK);
         &self.pixels
     }
 
-    /// Draws the figures of a koma of the sheet, and the number under which its drawing is known.
-    fn drawing(&mut self, koma: usize, (drawing, number): (usize, usize)) {
-        let source = Source::At(self.clock.place_from_koma(koma));
-        let poses = [self.posing.points(source), self.showing.points(drawing, koma)];
-        poses.iter().enumerate().for_each(|(panel, pose)| self.figure(panel, pose));
-        let is_kept = self.layer.drawings[drawing].role.is_kept();
+    /// Draws the source of a koma in the first panel.
+    fn source(&mut self, shown: OnScreen) {
+        let place = self.reels[0].sheet.clock.place_from_koma(shown.koma);
+        if let Some(posing) = &mut self.source {
+            let pose = posing.points(Source::At(place));
+            self.figure(0, &pose);
+        }
+    }
+
+    /// Draws the figure of a reel in a panel, and the number of its drawing.
+    fn drawing(&mut self, (panel, reel): (usize, usize), shown: OnScreen) {
+        let pose = self.showing[reel].points(shown.drawing, shown.koma);
+        self.figure(panel, &pose);
+        let drawing = &self.reels[reel].composite.layer().drawings[shown.drawing];
+        let is_kept = drawing.role.is_kept();
+        let number = self.numbers[reel][shown.koma];
         let digits = if is_kept { &self.genga } else { &self.plain };
-        digits.write(&mut self.pixels, number, (self.size.0 - PAD, 28.0));
+        let edge = 0.5 * self.size.0 * (panel + 1) as f64;
+        if self.reels.len() == 1 {
+            digits.write(&mut self.pixels, number, (edge - PAD, 28.0));
+            return;
+        }
+        let half = 0.5 * digits.width(number);
+        let radius = (half + 3.0).max(12.0);
+        let middle = edge - NUMBER.0 - radius;
+        digits.write(&mut self.pixels, number, (middle + half, 28.0));
+        if is_kept {
+            self.pixels.hoop((middle, 28.0 - NUMBER.1), radius, style::GENGA, 1.5);
+        }
+    }
+
+    /// Marks between the panels that their drawings differ: ≠.
+    fn unlike(&mut self) {
+        let (x, y) = (0.5 * self.size.0, 24.0);
+        self.pixels.rect((x - 11.0, y - 12.0), (22.0, 24.0), style::PAPER);
+        for (from, to) in
+            [((-7.0, -3.0), (7.0, -3.0)), ((-7.0, 3.0), (7.0, 3.0)), ((4.0, -9.0), (-4.0, 9.0))]
+        {
+            let at = |(right, down): Point| (x + right, y + down);
+            self.pixels.line(at(from), at(to), style::INK, 2.0);
+        }
     }
 
     fn figure(&mut self, panel: usize, pose: &[DVec3]) {
@@ -136,13 +182,16 @@ impl<'a> Scene<'a> {
 /// Computes the stage of a panel, its middle yet to be set, and whether the camera follows the root.
 fn stage(
     preview: &Preview,
-    composite: &Composite<'_>,
+    reels: &[Reel<'_>],
     figure: &Figure,
     size: (f64, f64),
 ) -> (Stage, bool) {
-    let clip = composite.clip();
-    let poses = drawn_poses(composite, figure.marks(), composite.layer().drawings.len());
-    let view = preview.camera.view(clip, &poses);
+    let drawn = |reel: &Reel<'_>| {
+        let composite = &reel.composite;
+        drawn_poses(composite, figure.marks(), composite.layer().drawings.len())
+    };
+    let poses: Vec<Vec<DVec3>> = reels.iter().flat_map(drawn).collect();
+    let view = preview.camera.view(reels[0].composite.clip(), &poses);
     let bounds = Bounds::new(figure, &view, &poses);
     let room = (0.5 * size.0 - 2.0 * PAD, size.1 - TOP - BOTTOM);
     let follows = bounds.width() / bounds.height().max(1e-9) > FAR * room.0 / room.1;
@@ -162,65 +211,4 @@ fn against_root(
         half.max(bounds.right - root).max(root - bounds.left)
     });
     Bounds { left: -half, right: half, ..*all }
-}
-
-fn bar_width((width, _): (f64, f64), koma: usize) -> f64 {
-    (width - 2.0 * PAD) / koma as f64
-}
-
-/// Draws the parts that are the same on every koma: words, floors, the sheet as bars.
-fn backdrop(
-    cut: &str,
-    sheet: &Sheet,
-    layer: &Layer,
-    cells: &[ShownDrawing<'_>],
-    koma: usize,
-    size: (f64, f64),
-    follows: bool,
-) -> String {
-    let (width, height) = size;
-    let half = 0.5 * width;
-    let mut canvas = Canvas::new(size);
-    let floor = height - BOTTOM;
-    for (panel, words) in [(0.0, "source 素材"), (1.0, "result 結果")] {
-        let x = panel * half;
-        canvas.text(words, (x + PAD, 27.0), Type::new(style::WORDS).bold());
-        canvas.line((x + PAD, floor), (x + half - PAD, floor), style::RAW, 1.25);
-    }
-    canvas.line((half, 12.0), (half, floor), style::GRID, 1.0);
-    let look = Type::new(style::SMALL).color(style::FAINT).align(Align::Right);
-    canvas.text("drawing 動画", (width - PAD - 46.0, 27.0), look);
-    if follows {
-        canvas.text("camera goes along", (half - PAD, 27.0), look);
-    }
-    bars(&mut canvas, cells, koma, size);
-    let base = height - 10.0;
-    canvas.text("koma", (PAD, base), Type::new(style::WORDS).color(style::FAINT));
-    let whole = sheet.blank.before + layer.length() + sheet.blank.after;
-    let length = seconds_and_koma(whole, sheet.clock.koma_rate);
-    let more = if koma < whole { format!(", the first {koma} shown") } else { String::new() };
-    let of = format!("of {whole} (尺 {length}){more}");
-    let faint = Type::new(style::WORDS).color(style::FAINT);
-    canvas.text(&of, (PAD + 76.0, base), faint);
-    let left = PAD + 90.0 + style::text_width(&of, style::WORDS);
-    let cut = style::fitted(cut, style::WORDS, width - PAD - left);
-    canvas.text(&cut, (width - PAD, base), faint.align(Align::Right));
-    canvas.finish()
-}
-
-/// Draws a bar for each exposure, coloured by its role.
-fn bars(canvas: &mut Canvas, cells: &[ShownDrawing<'_>], koma: usize, size: (f64, f64)) {
-    let one = bar_width(size, koma);
-    let (high, up) = BARS;
-    let y = size.1 - up;
-    for cell in cells.iter().take_while(|cell| cell.koma < koma) {
-        let held = cell.held.min(koma - cell.koma);
-        let from: Point = (PAD + one * cell.koma as f64, y);
-        let color = match cell.drawing.role {
-            Role::Inbetween => style::mixed(style::INBETWEEN, style::PAPER, 0.5),
-            role => style::of_role(role),
-        };
-        let gap = if one >= 3.0 { 1.0 } else { 0.0 };
-        canvas.rect(from, (from.0 + one * held as f64 - gap, y + high), color);
-    }
 }

@@ -36,7 +36,7 @@ fn many(genga: usize) -> (Clip, Sheet) {
 }
 
 /// Returns a clip of one point, on a sheet of one koma.
-fn point() -> (Clip, Sheet) {
+pub(super) fn point() -> (Clip, Sheet) {
     let skeleton = Skeleton { joints: vec![joint("root", None, DVec3::ZERO, true)] };
     let clip = Clip::new(skeleton, rate(24.0), Frame(0), 1, vec![1e7, -3.0, 0.5]).unwrap();
     let sheet = Sheet::on_ones(clip.clock(24.0), 1);
@@ -51,7 +51,7 @@ const PAGES: [(&str, Draw); 4] = [
     ("onion", |cut, clip, sheet| OnionSkin::default().draw(cut, clip, sheet)),
     ("strip", |cut, clip, sheet| Strip::default().draw(cut, clip, sheet)),
     ("flip-book", |cut, clip, sheet| {
-        FlipBook::default().draw(cut, clip, sheet).map(|page| vec![page])
+        FlipBook::default().draw(cut, &SideBySide::Source(clip, sheet)).map(|page| vec![page])
     }),
 ];
 
@@ -222,8 +222,9 @@ fn an_edited_sheet_keeps_the_numbers_of_its_drawings() {
     let cells = shown_drawings(&sheet.layers[0]);
     let numbers: Vec<_> = cells.iter().map(|cell| (cell.number(), cell.genga, cell.koma)).collect();
     assert_eq!(numbers, [(5, Some(3), 0), (1, Some(1), 2), (5, Some(3), 3), (2, None, 6)]);
-    let take = take(&FlipBook::default().draw("cut", &clip, &sheet).unwrap());
-    let genga = take["drawings"].as_array().unwrap().iter().map(|drawing| &drawing["genga"]);
+    let take = take(&FlipBook::default().draw("cut", &SideBySide::Source(&clip, &sheet)).unwrap());
+    let drawings = take["sheets"][0]["drawings"].as_array().unwrap();
+    let genga = drawings.iter().map(|drawing| &drawing["genga"]);
     assert_eq!(
         genga.map(Value::as_u64).collect::<Vec<_>>(),
         [Some(1), None, Some(2), None, Some(3)]
@@ -246,7 +247,7 @@ fn a_blend_is_posed_as_a_blend_and_tips_follow_the_joints() {
     assert!(between.iter().zip(&expected).all(|(a, b)| a.abs_diff_eq(*b, 1e-12)));
 }
 
-fn take(page: &str) -> Value {
+pub(super) fn take(page: &str) -> Value {
     let begin = "<script type=\"application/json\" id=\"take\">";
     let rest = page.split_once(begin).unwrap().1;
     serde_json::from_str(rest.split_once("</script>").unwrap().0).unwrap()
@@ -255,26 +256,27 @@ fn take(page: &str) -> Value {
 #[test]
 fn a_flip_book_has_the_sheet_and_every_pose_in_steps_of_the_height() {
     let (clip, sheet) = walk();
-    let take = take(&FlipBook::default().draw("cut", &clip, &sheet).unwrap());
+    let take = take(&FlipBook::default().draw("cut", &SideBySide::Source(&clip, &sheet)).unwrap());
     assert_eq!((&take["koma"], &take["length"]), (&8.into(), &"0+8".into()));
-    assert_eq!(take["cells"].to_string(), "[[0,0,1],[1,1,2],[2,3,3],[3,6,1],[4,7,1]]");
+    let sheet = &take["sheets"][0];
+    assert_eq!(sheet["cells"].to_string(), "[[0,0,1],[1,1,2],[2,3,3],[3,6,1],[4,7,1]]");
     assert_eq!(take["source"].as_array().unwrap().len(), 8);
     assert_eq!(
-        (&take["drawings"][2]["genga"], &take["drawings"][1]["genga"]),
+        (&sheet["drawings"][2]["genga"], &sheet["drawings"][1]["genga"]),
         (&2.into(), &Value::Null)
     );
     // The walker is 170 high from foot to tip; the root of frame 4 has gone 40 along −X and is 90 up.
     let steps = |length: f64| Value::from((length / 170.0 * 1000.0).round() as i64);
-    let pose = take["drawings"][2]["pose"].as_array().unwrap();
+    let pose = sheet["drawings"][2]["pose"].as_array().unwrap();
     assert_eq!(pose[..3], [steps(-40.0), steps(90.0), steps(0.0)]);
-    assert_eq!(take["source"][4], take["drawings"][2]["pose"]);
+    assert_eq!(take["source"][4], sheet["drawings"][2]["pose"]);
 }
 
 #[test]
 fn no_name_can_end_the_script_of_a_flip_book_or_fill_another_place() {
     let (clip, sheet) = walk();
     let cut = "</script><b>{{take}}&\u{2028}日本";
-    let page = FlipBook::default().draw(cut, &clip, &sheet).unwrap();
+    let page = FlipBook::default().draw(cut, &SideBySide::Source(&clip, &sheet)).unwrap();
     assert_eq!(take(&page)["cut"], cut);
     assert_eq!(page.matches("</script>").count(), 2);
     assert!(page.contains("<title>&lt;/script&gt;&lt;b&gt;{{take}}&amp;"));
@@ -338,13 +340,16 @@ fn small_pages_look_as_they_did() {
 #[test]
 fn the_data_of_a_flip_book_are_as_they_were() {
     let (clip, sheet) = walk();
-    let mut take = take(&FlipBook::default().draw("cut", &clip, &sheet).unwrap());
+    let mut take =
+        take(&FlipBook::default().draw("cut", &SideBySide::Source(&clip, &sheet)).unwrap());
     let fields = take.as_object_mut().unwrap();
     // Poses are long and say little.
     fields.remove("source");
-    let drawings = fields.remove("drawings").unwrap();
+    let mut sheets = fields.remove("sheets").unwrap();
+    let sheet = sheets[0].as_object_mut().unwrap();
+    let drawings = sheet.remove("drawings").unwrap();
     let mut lines: Vec<String> =
-        fields.iter().map(|(name, value)| format!("{name}: {value}")).collect();
+        fields.iter().chain(&*sheet).map(|(name, value)| format!("{name}: {value}")).collect();
     for mut drawing in drawings.as_array().unwrap().clone() {
         drawing.as_object_mut().unwrap().remove("pose");
         lines.push(format!("drawing: {drawing}"));
