@@ -106,7 +106,10 @@ fn the_camera_of_the_motion_s_own_file_fills_the_column_too() {
     let said = made(folder, "run stage.glb --fps 24 --deliver xdts,glb,vmd --out a");
     assert!(said.contains("PAN koma 25 to 49: guessed"), "{said}");
     assert!(said.contains("beside the body: cameras (1), shapes (2), nodes that move"), "{said}");
-    assert!(said.contains("vmd: not in it is what the file holds beside the body: cameras (1)"), "{said}");
+    assert!(
+        said.contains("vmd: not in it is what the file holds beside the body: cameras (1)"),
+        "{said}"
+    );
     assert_eq!(camera_column(folder, "a/stage_douga_ts.xdts"), [(24, 25, "PAN".to_owned())]);
     let read = genga_read::open(&folder.join("a/limited.glb")).unwrap().clip;
     assert!(read.beside().unwrap().camera.as_ref().unwrap().moves());
