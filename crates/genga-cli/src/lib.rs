@@ -42,6 +42,7 @@ mod paths;
 mod pin_args;
 mod plan;
 mod results;
+mod sheets;
 mod staging;
 mod stop;
 
