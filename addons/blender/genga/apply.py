@@ -94,8 +94,8 @@ def note(action, start, exposures, frames):
 
 def numbered(exposures, frames):
     """Returns the genga's numbers, as on the sheet, with their frames."""
-    keys = [frame for exposure, frame in zip(exposures, frames) if exposure.is_key]
-    return [(str(at), frame) for at, frame in enumerate(keys, 1)]
+    keys = [(exposure, frame) for exposure, frame in zip(exposures, frames) if exposure.is_key]
+    return [(exposure.number or str(at), frame) for at, (exposure, frame) in enumerate(keys, 1)]
 
 
 def play(thing, action, slot):

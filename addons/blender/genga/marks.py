@@ -2,11 +2,15 @@
 """Marks on the timeline: keys of type Extreme, selected frames, and markers for the genga."""
 
 import bisect
+import re
 
 import numpy as np
 
 from . import stepping
 from .take import BEGINS, PLACES, STEPPED
+
+# The number of a genga: 3, or 3a for one that came later.
+NUMBER = re.compile("[0-9]+[a-z]*")
 
 
 def marked(take):
@@ -54,7 +58,7 @@ def set_markers(scene, thing, numbered):
 def remove_markers(scene, thing):
     def is_its(marker):
         number, _, name = marker.name.partition(" ")
-        return name == thing.name and number.isdigit()
+        return name == thing.name and NUMBER.fullmatch(number)
 
     for marker in [marker for marker in scene.timeline_markers if is_its(marker)]:
         scene.timeline_markers.remove(marker)

@@ -1,5 +1,6 @@
 //! Snapshots of every deliverable of a small clip: read them as an animator would.
 
+mod kept_numbers;
 mod numbers;
 mod timesheets;
 mod wrong;

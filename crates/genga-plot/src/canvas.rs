@@ -11,6 +11,7 @@ use crate::figure::{Drawn, Ink, Shape, Stroke};
 use crate::paper_point::Point;
 use crate::style;
 use genga::motion::BodySide;
+use genga::sheet::Number;
 
 /// Alignment of a text to its point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -249,12 +250,13 @@ impl Canvas {
     }
 
     /// Draws a number in a circle (丸数字), which is filled for pinned drawings.
-    pub(super) fn badge(&mut self, center: Point, number: usize, color: RGBColor, filled: bool) {
+    pub(super) fn badge(&mut self, center: Point, number: &Number, color: RGBColor, filled: bool) {
         let (fill, ink) = if filled { (color, style::PAPER) } else { (style::PAPER, color) };
         self.circle(center, style::BADGE - 0.6, Some(fill), Some((color, 1.2)));
-        let size = [11.0, 10.0, 8.0][number.to_string().len().clamp(1, 3) - 1];
+        let number = number.to_string();
+        let size = [11.0, 10.0, 8.0, 6.5][number.len().clamp(1, 4) - 1];
         let look = Type::new(size).bold().color(ink).align(Align::Center);
-        self.text(&number.to_string(), (center.0, center.1 + 0.36 * size), look);
+        self.text(&number, (center.0, center.1 + 0.36 * size), look);
     }
 
     /// Draws a figure. Consecutive lines of one look become one path.

@@ -188,8 +188,8 @@ impl Table {
         let (middle, right) = (x + 0.5 * width, x + width - 10.0);
         canvas.frame((x, y), self.card, style::GRID, 6.0);
         let color = style::of_role(cell.drawing.role);
-        match cell.genga {
-            Some(genga) => canvas.badge((x + 18.0, y + 18.0), genga, color, cell.is_pinned()),
+        match cell.genga_number() {
+            Some(genga) => canvas.badge((x + 18.0, y + 18.0), &genga, color, cell.is_pinned()),
             None => canvas.disc((x + 18.0, y + 18.0), 3.0, color),
         }
         let faint = Type::new(style::SMALL).color(style::FAINT);

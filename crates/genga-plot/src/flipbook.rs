@@ -13,7 +13,7 @@ use crate::shared;
 use genga::error::Error;
 use genga::knob::{Knobs, knobs};
 use genga::motion::{Camera, Clip, Composite, first_round};
-use genga::sheet::{Layer, Sheet, Source};
+use genga::sheet::{Layer, Number, Sheet, Source};
 
 /// A flip-book (パラパラ): source and result as one self-contained HTML file. It plays, steps by koma and by
 /// drawing, and turns to every side.
@@ -71,7 +71,10 @@ struct Take<'a> {
 #[derive(Serialize)]
 struct PageDrawing {
     role: &'static str,
-    genga: Option<usize>,
+    /// Its number, unless that is its place.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    number: Option<Number>,
+    genga: Option<Number>,
     /// Place in the source, to a tenth of a frame.
     frame: f64,
     pinned: bool,
@@ -149,6 +152,7 @@ impl FlipBook {
             drawings: drawings
                 .map(|((drawing, pose), genga)| PageDrawing {
                     role: drawing.role.word(),
+                    number: drawing.numbers.drawing.clone(),
                     genga,
                     frame: (drawing.source.place() * 10.0).round() / 10.0,
                     pinned: drawing.why.pinned.is_some(),

@@ -245,7 +245,7 @@ impl Page<'_> {
             let color = style::of_role(cell.drawing.role);
             canvas.badge(
                 (at, y + 19.0),
-                cell.genga.unwrap_or(cell.number()),
+                &cell.genga_number().unwrap_or_else(|| cell.number()),
                 color,
                 cell.is_pinned(),
             );

@@ -115,7 +115,8 @@ impl PoseRow {
         let mut kept = shown_drawings(composite.layer());
         kept.retain(|cell| cell.genga.is_some());
         let frame = |cell: &ShownDrawing<'_>| {
-            let label = format!("{} · koma {}", cell.genga.unwrap_or_default(), cell.koma + 1);
+            let number = cell.genga_number().unwrap_or_else(|| cell.number());
+            let label = format!("{number} · koma {}", cell.koma + 1);
             (cell.drawing.source.place(), label, cell.drawing.role)
         };
         let figure = Figure::new(clip, self.body);

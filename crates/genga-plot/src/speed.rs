@@ -12,6 +12,7 @@ use crate::speed::panel::{Panel, Shared};
 use crate::{style, title};
 use genga::error::Error;
 use genga::motion::JointId;
+use genga::sheet::Number;
 use genga::signal::{Signals, Turn};
 use genga::time::Frame;
 
@@ -33,6 +34,8 @@ pub struct SpeedPlot {
     pub curves: SpeedCurves,
     /// Source frames on which actions (動作) begin, shown as dashed lines; default none.
     pub splits: Vec<Frame>,
+    /// Numbers of the layer's keys; default none: 1, 2, 3 ….
+    pub numbers: Vec<Number>,
 }
 
 impl Default for SpeedPlot {
@@ -44,6 +47,7 @@ impl Default for SpeedPlot {
             joints: 4,
             curves: SpeedCurves::Both,
             splits: Vec::new(),
+            numbers: Vec::new(),
         }
     }
 }
@@ -128,8 +132,19 @@ impl SpeedPlot {
         }
         let fps = speed.rate.fps();
         seconds(&mut canvas, (first / fps, last / fps), (right, bottom))?;
-        numbers(&mut canvas, &shared.keys, &lanes, top);
+        self.write_numbers(&mut canvas, &shared.keys, &lanes, top);
         Ok(canvas.finish())
+    }
+
+    /// Draws the numbers of the layer's keys above the panels. Numbers without a free lane are left out.
+    fn write_numbers(&self, canvas: &mut Canvas, keys: &[f64], lanes: &[Option<usize>], top: f64) {
+        for (at, (&x, lane)) in keys.iter().zip(lanes).enumerate() {
+            let Some(lane) = *lane else { continue };
+            let y = top - style::BADGE - 3.0 - 2.0 * style::BADGE * lane as f64;
+            canvas.line((x, y + style::BADGE), (x, top), style::GENGA_LINE, 1.0);
+            let number = self.numbers.get(at).cloned().unwrap_or_else(|| (at + 1).into());
+            canvas.badge((x, y), &number, style::GENGA, false);
+        }
     }
 }
 
@@ -178,14 +193,4 @@ fn seconds(
     canvas.text("frame", (LEFT - 18.0, bottom + 17.0), look);
     canvas.text("s 秒", (LEFT - 18.0, bottom + 43.0), look);
     Ok(())
-}
-
-/// Draws the numbers of the layer's keys above the panels. Numbers without a free lane are left out.
-fn numbers(canvas: &mut Canvas, keys: &[f64], lanes: &[Option<usize>], top: f64) {
-    for (at, (&x, lane)) in keys.iter().zip(lanes).enumerate() {
-        let Some(lane) = *lane else { continue };
-        let y = top - style::BADGE - 3.0 - 2.0 * style::BADGE * lane as f64;
-        canvas.line((x, y + style::BADGE), (x, top), style::GENGA_LINE, 1.0);
-        canvas.badge((x, y), at + 1, style::GENGA, false);
-    }
 }

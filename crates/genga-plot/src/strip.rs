@@ -276,8 +276,8 @@ impl Lines<'_> {
         }
         let label = (self.x(koma.start) + 0.5 * self.column, floor + 15.0);
         if koma.start == cell.koma {
-            match cell.genga {
-                Some(genga) => canvas.badge(label, genga, color, cell.is_pinned()),
+            match cell.genga_number() {
+                Some(genga) => canvas.badge(label, &genga, color, cell.is_pinned()),
                 None => canvas.disc(label, 3.0, color),
             }
             let look = Type::new(style::SMALL).color(style::FAINT);

@@ -79,7 +79,7 @@ function say(index) {
   const [, begin, held] = take.cells[cellOf[state.koma]];
   const second = Math.round(take.koma_rate);
   const role = drawing.genga ? `${word(drawing.role)} ${drawing.genga}` : word(drawing.role);
-  by("drawing").textContent = `${take.column}${index + 1}`;
+  by("drawing").textContent = `${take.column}${drawing.number ?? index + 1}`;
   by("role").textContent = role;
   document.querySelector("aside").className = drawing.role;
   by("koma").textContent = `${state.koma + 1} / ${take.koma}`;
@@ -89,7 +89,7 @@ function say(index) {
   const omitted = drawing.omitted ? word("omitted")(drawing.omitted) : "";
   by("why").textContent = state.language === "en" ? drawing.why : omitted;
   by("scrub").value = state.koma + 1;
-  const text = `${word("koma")} ${state.koma + 1}, ${word("drawing")} ${index + 1}, ${role}`;
+  const text = `${word("koma")} ${state.koma + 1}, ${word("drawing")} ${drawing.number ?? index + 1}, ${role}`;
   by("scrub").setAttribute("aria-valuetext", text);
   // While it plays nobody could follow.
   if (!state.playing) by("status").textContent = text;

@@ -46,7 +46,7 @@ function drawColumn(canvas, take, cellOf, koma, colors) {
     ctx.textAlign = "right";
     ctx.fillStyle = colors.faint;
     ctx.fillText(at + 1, 0.25 * width, y + 0.55 * ROW);
-    if (at === begin) drawMark(ctx, take.drawings[drawing], drawing + 1, [middle, y + 0.5 * ROW], colors);
+    if (at === begin) drawMark(ctx, take.drawings[drawing], take.drawings[drawing].number ?? drawing + 1, [middle, y + 0.5 * ROW], colors);
     else drawHold(ctx, [middle, y], at === begin + held - 1, colors);
   }
 }

@@ -13,7 +13,7 @@ use crate::stage::{Bounds, Stage};
 use crate::style;
 use genga::error::Error;
 use genga::motion::{Clip, Composite, layer_of};
-use genga::sheet::{Layer, Sheet};
+use genga::sheet::{Layer, Number, Sheet};
 
 /// Share of the picture on each side that figures stay out of: the edge of the safe area.
 const SAFE: f64 = 0.05;
@@ -31,14 +31,19 @@ struct Easel {
 
 impl Easel {
     /// Draws figures, each with its number, on all cores. Returns the PNGs in the same order.
-    fn pictures(&self, figures: &[(Drawn, usize)]) -> Result<Vec<Vec<u8>>, Error> {
-        let draw = |pixels: &mut Pixels, (drawn, number): &(Drawn, usize)| {
-            self.picture(pixels, drawn, *number)
+    fn pictures(&self, figures: &[(Drawn, &Number)]) -> Result<Vec<Vec<u8>>, Error> {
+        let draw = |pixels: &mut Pixels, (drawn, number): &(Drawn, &Number)| {
+            self.picture(pixels, drawn, number)
         };
         figures.par_iter().map_init(|| self.backdrop.clone(), draw).collect()
     }
 
-    fn picture(&self, pixels: &mut Pixels, drawn: &Drawn, number: usize) -> Result<Vec<u8>, Error> {
+    fn picture(
+        &self,
+        pixels: &mut Pixels,
+        drawn: &Drawn,
+        number: &Number,
+    ) -> Result<Vec<u8>, Error> {
         pixels.copy(&self.backdrop);
         pixels.figure(drawn, Inks::Sides);
         if let Some((at, digits)) = &self.number {
@@ -65,15 +70,16 @@ impl NumberedImages {
         let easel = self.easel(&composite, &figure)?;
         let mut showing = Showing::new(&composite, figure.marks());
         let name: String = composite.layer().name.chars().map(plain).collect();
+        let numbers = composite.layer().numbers();
         let drawings: Vec<(usize, usize)> =
             composite.first_koma().into_iter().enumerate().collect();
         for some in drawings.chunks(AT_ONCE) {
             let figure = |(at, koma): &(usize, usize)| {
-                (easel.stage.draw(&showing.points(*at, *koma)), at + 1)
+                (easel.stage.draw(&showing.points(*at, *koma)), &numbers[*at])
             };
             let figures: Vec<_> = some.iter().map(figure).collect();
             for ((at, _), picture) in some.iter().zip(easel.pictures(&figures)?) {
-                take(&format!("{name}_{:04}.png", at + 1), picture)?;
+                take(&format!("{name}_{:04}.png", numbers[*at]), picture)?;
             }
         }
         Ok(())
@@ -100,9 +106,10 @@ impl NumberedImages {
         for (column, layer) in sheet.layers.iter().enumerate() {
             let own = columns.iter().map(|of| *of == column).collect();
             let stage = Stage { figure: figure.only(own), ..easel.stage.clone() };
+            let numbers = layer.numbers();
             for some in first_shown(layer).chunks(AT_ONCE) {
                 let figure = |(drawing, koma): &(usize, usize)| {
-                    (stage.draw(&showing.points(on_screen[*koma], *koma)), drawing + 1)
+                    (stage.draw(&showing.points(on_screen[*koma], *koma)), &numbers[*drawing])
                 };
                 let figures: Vec<_> = some.iter().map(figure).collect();
                 for ((drawing, _), picture) in some.iter().zip(easel.pictures(&figures)?) {

@@ -62,7 +62,8 @@ impl Preview {
         mut show: impl FnMut(usize, &Pixels) -> Result<(), Error>,
     ) -> Result<usize, Error> {
         // The rounds of a loop are at other places and show the same drawings.
-        let named: Vec<usize> = composed(clip, sheet)?.layer().koma().take(most).collect();
+        let named = composed(clip, sheet)?.layer().clone();
+        let (numbers, on_screen) = (named.numbers(), named.koma().take(most).collect::<Vec<_>>());
         let (clip, sheet) = played_out(clip, sheet);
         let (clip, sheet) = (&*clip, &*sheet);
         let composite = composed(clip, sheet)?;
@@ -72,8 +73,8 @@ impl Preview {
         let figure = Figure::new(clip, self.body);
         let mut scene = Scene::new(self, cut, (&composite, &figure), sheet, koma)?;
         for at in 0..koma {
-            let drawing =
-                at.checked_sub(before).and_then(|at| Some((*shown.get(at)?, named[at] + 1)));
+            let own = at.checked_sub(before);
+            let drawing = own.and_then(|at| Some((*shown.get(at)?, &numbers[on_screen[at]])));
             show(at, scene.draw(at, drawing))?;
         }
         Ok(koma)

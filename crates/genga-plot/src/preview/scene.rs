@@ -13,7 +13,7 @@ use crate::stage::{Bounds, Stage};
 use crate::style;
 use genga::error::Error;
 use genga::motion::Composite;
-use genga::sheet::{Layer, Role, Sheet, Source};
+use genga::sheet::{Layer, Number, Role, Sheet, Source};
 use genga::time::Clock;
 
 /// Space above the figures and below the floor, in px.
@@ -81,13 +81,13 @@ impl<'a> Scene<'a> {
     }
 
     /// Draws a koma of the cut on which a drawing is shown, with its number, or none.
-    pub(super) fn draw(&mut self, koma: usize, drawing: Option<(usize, usize)>) -> &Pixels {
+    pub(super) fn draw(&mut self, koma: usize, drawing: Option<(usize, &Number)>) -> &Pixels {
         self.pixels.copy(&self.backdrop);
         if let Some(drawing) = drawing {
             self.drawing(koma - self.before, drawing);
         }
         let height = self.size.1;
-        self.small.write(&mut self.pixels, koma + 1, (PAD + 68.0, height - 10.0));
+        self.small.write(&mut self.pixels, &(koma + 1).into(), (PAD + 68.0, height - 10.0));
         let bar = bar_width(self.size, self.koma);
         let x = PAD + bar * (koma as f64 + 0.5);
         let (high, up) = BARS;
@@ -97,7 +97,7 @@ impl<'a> Scene<'a> {
     }
 
     /// Draws the figures of a koma of the sheet, and the number under which its drawing is known.
-    fn drawing(&mut self, koma: usize, (drawing, number): (usize, usize)) {
+    fn drawing(&mut self, koma: usize, (drawing, number): (usize, &Number)) {
         let source = Source::At(self.clock.place_from_koma(koma));
         let poses = [self.posing.points(source), self.showing.points(drawing, koma)];
         poses.iter().enumerate().for_each(|(panel, pose)| self.figure(panel, pose));
