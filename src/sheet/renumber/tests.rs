@@ -200,7 +200,7 @@ proptest! {
         let mut before = Sheet::on_ones(clock(), 0);
         for drawings in &sheets {
             let now = after(&before, sheet(drawings));
-            prop_assert_eq!(now.compare_numbers(&before).len() >= drawings.len(), true);
+            prop_assert!(now.compare_numbers(&before).len() >= drawings.len());
             let numbers = now.layers[0].numbers();
             prop_assert!(numbers.is_sorted_by(|a, b| a < b), "{:?}", numbers);
             let gone = now.layers[0].gone.iter().map(|gone| &gone.drawing);
