@@ -13,7 +13,7 @@ use crate::shared;
 use genga::error::Error;
 use genga::knob::{Knobs, knobs};
 use genga::motion::{Camera, Clip, Composite, played_out};
-use genga::sheet::{Layer, Sheet, Source};
+use genga::sheet::{Layer, Number, Sheet, Source};
 
 /// A flip-book (パラパラ): source and result as one self-contained HTML file. It plays, steps by koma and by
 /// drawing, and turns to every side. In the rounds of a loop (リピート) the body travels on.
@@ -73,9 +73,9 @@ struct Take<'a> {
 #[derive(Serialize)]
 struct PageDrawing {
     role: &'static str,
-    /// Number in the CELL column, from 1.
-    number: usize,
-    genga: Option<usize>,
+    /// Number in the CELL column, 3 or "3a".
+    number: Number,
+    genga: Option<Number>,
     /// Place in the source, to a tenth of a frame.
     frame: f64,
     pinned: bool,
@@ -139,8 +139,8 @@ impl FlipBook {
         let steps = Steps::new(&figure, &auto, &source);
         let cells = shown_as(layer, named);
         // A drawing that is never shown keeps its own numbers.
-        let mut numbers: Vec<_> = (1..).zip(layer.genga_numbers()).collect();
-        cells.iter().for_each(|cell| numbers[cell.index] = (cell.number(), cell.genga));
+        let mut numbers: Vec<_> = layer.numbers().into_iter().zip(layer.genga_numbers()).collect();
+        cells.iter().for_each(|cell| numbers[cell.index] = (cell.number(), cell.genga_number()));
         let drawings = layer.drawings.iter().zip(&result).zip(numbers);
         Take {
             cut,

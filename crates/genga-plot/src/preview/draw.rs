@@ -62,14 +62,16 @@ impl Preview {
         show: impl FnMut(usize, &Pixels) -> Result<(), Error>,
     ) -> Result<usize, Error> {
         // The rounds of a loop are at other places and show the same drawings.
-        let named: Vec<usize> = composed(clip, sheet)?.layer().koma().take(most).collect();
+        let named = composed(clip, sheet)?.layer().clone();
+        let (numbers, on_screen) = (named.numbers(), named.koma().take(most));
         let (clip, sheet) = played_out(clip, sheet);
         let (clip, sheet) = (&*clip, &*sheet);
         let composite = composed(clip, sheet)?;
         let koma = (sheet.blank.before + composite.layer().length() + sheet.blank.after).min(most);
         let figure = Figure::new(clip, self.body);
         let scene = Scene::new(self, cut, (&composite, &figure), sheet, koma)?;
-        let cast = Cast::new((&composite, &figure), sheet, named.iter().map(|at| at + 1));
+        let numbers = on_screen.map(|drawing| numbers[drawing].clone());
+        let cast = Cast::new((&composite, &figure), sheet, numbers);
         ahead::play(&scene, cast, show)?;
         Ok(koma)
     }

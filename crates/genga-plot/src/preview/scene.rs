@@ -13,7 +13,7 @@ use crate::stage::{Bounds, Stage};
 use crate::style;
 use genga::error::Error;
 use genga::motion::Composite;
-use genga::sheet::{Layer, Role, Sheet, Source};
+use genga::sheet::{Layer, Number, Role, Sheet, Source};
 use genga::time::Clock;
 
 /// Space above the figures and below the floor, in px.
@@ -52,7 +52,7 @@ pub(super) struct Moment {
 struct Shown {
     poses: [Vec<DVec3>; 2],
     /// Number under which the drawing is known.
-    number: usize,
+    number: Number,
     is_kept: bool,
 }
 
@@ -63,7 +63,7 @@ pub(super) struct Cast<'a> {
     clock: Clock,
     layer: &'a Layer,
     /// Drawing on each koma of the sheet, and the number under which it is known.
-    drawings: Vec<(usize, usize)>,
+    drawings: Vec<(usize, Number)>,
     /// Blank koma before the first drawing.
     before: usize,
 }
@@ -73,7 +73,7 @@ impl<'a> Cast<'a> {
     pub(super) fn new(
         (composite, figure): (&'a Composite<'a>, &'a Figure),
         sheet: &Sheet,
-        numbers: impl Iterator<Item = usize>,
+        numbers: impl Iterator<Item = Number>,
     ) -> Self {
         let layer = composite.layer();
         Self {
@@ -89,7 +89,7 @@ impl<'a> Cast<'a> {
     /// Poses the figures of a koma of the cut.
     pub(super) fn at(&mut self, koma: usize) -> Moment {
         let own = koma.checked_sub(self.before);
-        let drawing = own.and_then(|own| Some((own, *self.drawings.get(own)?)));
+        let drawing = own.and_then(|own| Some((own, self.drawings.get(own)?.clone())));
         let shown = drawing.map(|(own, (drawing, number))| {
             let source = Source::At(self.clock.place_from_koma(own));
             let poses = [self.posing.points(source), self.showing.points(drawing, own)];
@@ -139,10 +139,10 @@ impl Scene {
         if let Some(Shown { poses, number, is_kept }) = &moment.shown {
             poses.iter().enumerate().for_each(|(panel, pose)| self.figure(pixels, panel, pose));
             let digits = if *is_kept { &self.genga } else { &self.plain };
-            digits.write(pixels, *number, (self.size.0 - PAD, 28.0));
+            digits.write(pixels, number, (self.size.0 - PAD, 28.0));
         }
         let height = self.size.1;
-        self.small.write(pixels, moment.koma + 1, (PAD + 68.0, height - 10.0));
+        self.small.write(pixels, &(moment.koma + 1).into(), (PAD + 68.0, height - 10.0));
         let bar = bar_width(self.size, self.koma);
         let x = PAD + bar * (moment.koma as f64 + 0.5);
         let (high, up) = BARS;
