@@ -37,11 +37,12 @@ const FILES: [(&str, &str); 13] = [
     ("speed.svg", "<svg "),
 ];
 
-const SUBCOMMANDS: [&str; 15] = [
+const SUBCOMMANDS: [&str; 16] = [
     "run",
     "batch",
     "studio",
     "deliver",
+    "preview",
     "keys",
     "omit",
     "split",

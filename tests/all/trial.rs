@@ -91,7 +91,7 @@ fn what_cannot_be_asked_is_refused_with_the_way_out() {
         ("trial data/kick.bvh --out o --pairs 0", "expected 1 to 200 pairs"),
         ("trial data/kick.bvh --out o --conditions genga", "a pair needs two"),
         ("trial data/kick.bvh --out o --conditions genga,ones", "expected one of source, twos"),
-        ("trial data/kick.bvh --out o --sheet hand", "expected NAME=SHEET.json"),
+        ("trial data/kick.bvh --out o --sheet hand", "expected NAME=SHEET, as"),
         ("trial --read a.csv --out o", "cannot be used with"),
     ] {
         let found = place.refused(2, args);

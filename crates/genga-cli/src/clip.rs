@@ -247,20 +247,46 @@ impl Reading {
     /// Reads the motion that a sheet was made of, and prints its warnings.
     pub(super) fn read_for(
         &self,
-        (sheet, file): (&Path, &SheetFile),
+        sheet: (&Path, &SheetFile),
         path: &Path,
         words: &Words,
     ) -> Result<OfSheet, Failure> {
-        let of_sheet = files::fault_of(sheet);
+        self.read_whole(path, words)?.of_sheet(sheet, "", words)
+    }
+
+    /// Reads the whole file that sheets were made of, and prints its warnings.
+    pub(super) fn read_whole(&self, path: &Path, words: &Words) -> Result<Whole, Failure> {
         let read = self.read(path)?;
         let of = ClipMark::new(&paths::file_name(path), &read.clip);
         let (clip, note) =
             if self.keep_glitches { (read.clip, None) } else { glitches::mend(read.clip) };
-        let (source, notes) = file.fit(clip).map_err(&of_sheet)?;
-        source.check_size().map_err(files::fault_of(path))?;
+        read.warnings.iter().chain(&note).for_each(|warning| words.warn(warning));
+        Ok(Whole { clip, of, path: path.to_owned() })
+    }
+}
+
+/// A whole motion file that sheets were made of.
+#[derive(Clone)]
+pub(super) struct Whole {
+    clip: Clip,
+    of: ClipMark,
+    path: PathBuf,
+}
+
+impl Whole {
+    /// Cuts out the motion of a sheet, and prints warnings with a prefix that names the sheet.
+    pub(super) fn of_sheet(
+        self,
+        (sheet, file): (&Path, &SheetFile),
+        name: &str,
+        words: &Words,
+    ) -> Result<OfSheet, Failure> {
+        let of_sheet = files::fault_of(sheet);
+        let (source, notes) = file.fit(self.clip).map_err(&of_sheet)?;
+        source.check_size().map_err(files::fault_of(&self.path))?;
         let drawn = file.drawn(&source).map_err(&of_sheet)?;
-        read.warnings.iter().chain(&note).chain(&notes).for_each(|warning| words.warn(warning));
-        Ok(OfSheet { source, drawn, of })
+        notes.iter().for_each(|warning| words.warn_of(name, warning));
+        Ok(OfSheet { source, drawn, of: self.of })
     }
 }
 

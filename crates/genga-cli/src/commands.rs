@@ -8,6 +8,7 @@ mod inspect;
 mod keys;
 mod omit;
 mod pages;
+mod preview;
 mod recipe;
 mod run;
 mod split;
@@ -50,6 +51,8 @@ enum Command {
     Studio(studio::StudioArgs),
     /// Write a sheet, edited or not, in other formats.
     Deliver(deliver::DeliverArgs),
+    /// Show two sheets of one take side by side, as a web page, a GIF or a video.
+    Preview(preview::PreviewArgs),
     /// Write the key table as CSV.
     Keys(keys::KeysArgs),
     /// Apply only naka-nashi and koma-dori, to the clip at 24 drawings per second.
@@ -85,6 +88,7 @@ impl Args {
             Command::Batch(args) => batch::run(&args, words),
             Command::Studio(args) => studio::run(args),
             Command::Deliver(args) => deliver::run(&args, words),
+            Command::Preview(args) => preview::run(&args, words),
             Command::Keys(args) => keys::run(&args, words),
             Command::Omit(args) => omit::run(&args, words),
             Command::Split(args) => split::run(&args, words),

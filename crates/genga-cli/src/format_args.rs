@@ -18,12 +18,9 @@ use genga_files::{
 };
 use genga_plot::Camera;
 
-/// Arguments of every command that writes formats.
+/// Arguments of every command that writes pictures or films.
 #[derive(Debug, Default, Clone, Args)]
-pub(super) struct FormatArgs {
-    /// Write a BVH, like the formats: stepped (bvh), keys (bvh-keys).
-    #[arg(long, value_name = "ROWS", hide_possible_values = true, help_heading = FILES)]
-    bvh: Option<BvhRows>,
+pub(super) struct LookArgs {
     /// Camera of the figures: front, side, three-quarter, auto.
     ///
     /// auto sees most of the movement.
@@ -32,6 +29,34 @@ pub(super) struct FormatArgs {
     /// One setting of a format: --with csv.bom=true (repeatable).
     #[arg(long, value_name = "FORMAT.KEY=VALUE", value_parser = assignment, help_heading = FILES)]
     with: Vec<(String, String)>,
+}
+
+impl LookArgs {
+    /// Makes the settings of all formats.
+    pub(super) fn settings(&self) -> Result<Settings, Failure> {
+        let mut settings = Settings::default();
+        if let Some(camera) = self.camera {
+            settings.look_from(camera);
+        }
+        for (name, value) in &self.with {
+            if name == "vmd.model" && Vmd::is_file(value) {
+                settings.vmd.play(model(Path::new(value))?);
+            } else {
+                settings.set(name, value).map_err(|error| wrongly("with", &error))?;
+            }
+        }
+        Ok(settings)
+    }
+}
+
+/// Arguments of every command that writes formats.
+#[derive(Debug, Default, Clone, Args)]
+pub(super) struct FormatArgs {
+    /// Write a BVH, like the formats: stepped (bvh), keys (bvh-keys).
+    #[arg(long, value_name = "ROWS", hide_possible_values = true, help_heading = FILES)]
+    bvh: Option<BvhRows>,
+    #[command(flatten)]
+    look: LookArgs,
     /// Overwrite changed files and another clip's, not paint.
     ///
     /// Files that were changed since genga wrote them, and the folder of another clip.
@@ -233,17 +258,7 @@ impl Formats {
         let formats = found(&names)?;
         let by_name: Vec<&str> = names.into_iter().filter(|name| name.trim() != "all").collect();
         let named = found(&by_name)?.iter().map(|format| format.name).collect();
-        let mut settings = Settings::default();
-        if let Some(camera) = args.camera {
-            settings.look_from(camera);
-        }
-        for (name, value) in &args.with {
-            if name == "vmd.model" && Vmd::is_file(value) {
-                settings.vmd.play(model(Path::new(value))?);
-            } else {
-                settings.set(name, value).map_err(|error| wrongly("with", &error))?;
-            }
-        }
+        let mut settings = args.look.settings()?;
         settings.vmd.map = bones.cloned();
         Ok(Self { formats, named, settings, is_forced: args.force })
     }

@@ -43,6 +43,7 @@ mod paths;
 mod pin_args;
 mod plan;
 mod results;
+mod sheets;
 mod staging;
 mod stop;
 

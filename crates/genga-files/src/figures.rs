@@ -54,27 +54,6 @@ pub(super) fn onion(cut: &Cut<'_>, settings: &Settings, put: &mut Sink<'_>) -> R
     put_pages("onion", &pages, &settings.figures, put)
 }
 
-/// Writes the page that plays the sheet.
-pub(super) fn flipbook(
-    cut: &Cut<'_>,
-    settings: &Settings,
-    put: &mut Sink<'_>,
-) -> Result<(), Error> {
-    let page = genga_plot::FlipBook { body: settings.figures.body, ..settings.flipbook.clone() }
-        .draw(cut.name, cut.clip, cut.sheet)?;
-    put("flipbook.html", page.as_bytes())
-}
-
-/// Writes the animated preview, source beside result. Frames are compressed as they are drawn, so only the
-/// compressed file is held in memory.
-#[cfg(feature = "pictures")]
-pub(super) fn preview(cut: &Cut<'_>, settings: &Settings, put: &mut Sink<'_>) -> Result<(), Error> {
-    let mut bytes = Vec::new();
-    genga_plot::Preview { body: settings.figures.body, ..settings.preview.clone() }
-        .draw(cut.name, cut.clip, cut.sheet, &mut bytes)?;
-    put("preview.gif", &bytes)
-}
-
 /// Draws one picture per drawing.
 #[cfg(feature = "images")]
 pub(super) fn images(cut: &Cut<'_>, settings: &Settings, put: &mut Sink<'_>) -> Result<(), Error> {

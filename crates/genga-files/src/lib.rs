@@ -17,6 +17,7 @@ mod cut_folder;
 mod cycle_table;
 mod drawing_table;
 mod figures;
+mod films;
 mod glb;
 mod humanoid;
 mod koma;

@@ -5,13 +5,15 @@ use std::fmt;
 use crate::beside::{Passes, unpassed};
 #[cfg(feature = "images")]
 use crate::cut_folder;
+use crate::films::{Film, shortened};
 use crate::settings::Settings;
 use crate::{
-    Cut, Drawings, Rows, Sink, after_effects, columns_csv, figures, keys_bvh, limited_bvh,
+    Cut, Drawings, Rows, Sink, after_effects, columns_csv, figures, films, keys_bvh, limited_bvh,
     pictures, remap_csv, sheet_csv, sheet_json, sts, vrma, xdts, xsheet,
 };
 use genga::error::{Error, Warning};
 use genga::sheet::{Layer, Sheet};
+use genga_plot::SideBySide;
 
 /// A format in which a sheet is handed over (納品形式).
 #[derive(Clone, Copy)]
@@ -29,7 +31,9 @@ pub struct Format {
     pub files: &'static [&'static str],
     /// Whether it writes one numbered file per drawing or page.
     pub is_numbered: bool,
-    /// Makes the files and passes them to the sink, one at a time.
+    /// How its file is made, if it is a film of what stands side by side.
+    film: Option<Film>,
+    /// Makes the files of any other format and passes them to the sink, one at a time.
     make: fn(&Cut<'_>, &Settings, &mut Sink<'_>) -> Result<(), Error>,
     /// Collects warnings about the files.
     notes: fn(&Cut<'_>, &Settings) -> Result<Vec<Warning>, Error>,
@@ -52,6 +56,7 @@ const PLAIN: Format = Format {
     goes_to: "",
     files: &[],
     is_numbered: false,
+    film: None,
     make: |_, _, _| Ok(()),
     notes: |_, _| Ok(Vec::new()),
 };
@@ -293,6 +298,7 @@ pub const FORMATS: &[Format] = &[
             notes.extend(figures::font_note(settings));
             Ok(notes)
         },
+        ..PLAIN
     },
     Format {
         name: "contact",
@@ -322,8 +328,7 @@ pub const FORMATS: &[Format] = &[
         japanese: "パラパラ",
         goes_to: "films",
         files: &["flipbook.html"],
-        make: figures::flipbook,
-        notes: |cut, settings| Ok(shortened("flipbook", settings.flipbook.most, drawn(cut.sheet))),
+        film: Some(films::FLIPBOOK),
         ..PLAIN
     },
     #[cfg(feature = "pictures")]
@@ -333,12 +338,7 @@ pub const FORMATS: &[Format] = &[
         japanese: "プレビュー",
         goes_to: "films",
         files: &["preview.gif"],
-        make: figures::preview,
-        notes: |cut, settings| {
-            let mut notes = shortened("preview", settings.preview.most, cut.sheet.cut_length());
-            notes.extend(genga_plot::font_note());
-            Ok(notes)
-        },
+        film: Some(films::PREVIEW),
         ..PLAIN
     },
     #[cfg(feature = "video")]
@@ -348,8 +348,7 @@ pub const FORMATS: &[Format] = &[
         japanese: "動画ファイル",
         goes_to: "films",
         files: &["CUT.mp4"],
-        make: |cut, settings, put| settings.mp4.write(settings.figures.body, cut, put),
-        notes: |_, settings| settings.mp4.notes(),
+        film: Some(films::MP4),
         ..PLAIN
     },
     #[cfg(feature = "images")]
@@ -459,7 +458,45 @@ impl Format {
         put: &mut Sink<'_>,
     ) -> Result<(), Error> {
         cut.sheet.check()?;
-        (self.make)(cut, settings, put)
+        self.put(cut, settings, put)
+    }
+
+    fn put(&self, cut: &Cut<'_>, settings: &Settings, put: &mut Sink<'_>) -> Result<(), Error> {
+        match self.film {
+            None => (self.make)(cut, settings, put),
+            Some(film) => {
+                let shown = SideBySide::Source(cut.clip, cut.sheet);
+                put(&cut.file(self.files[0]), &(film.make)(cut.name, &shown, settings)?)
+            }
+        }
+    }
+
+    /// Finds the film whose file has an ending: `html`, `gif` or `mp4`.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] that lists the endings, or names the feature that a build lacks.
+    pub fn find_film(ending: &str) -> Result<&'static Self, Error> {
+        match ending {
+            "html" => Self::find("flipbook"),
+            "gif" => Self::find("preview"),
+            "mp4" => Self::find("mp4"),
+            _ => Err(Error::setting("out", "a film is .html, .gif or .mp4")),
+        }
+    }
+
+    /// Makes a film of what stands side by side, with warnings about it; `cut` is the name of the cut.
+    ///
+    /// # Errors
+    /// As [`Format::write`]; [`Error::Setting`] if this format is no film.
+    pub fn film(
+        &self,
+        cut: &str,
+        shown: &SideBySide<'_>,
+        settings: &Settings,
+    ) -> Result<(Vec<u8>, Vec<Warning>), Error> {
+        let film = self.film.ok_or_else(|| Error::setting(self.name, "this is no film"))?;
+        let notes = (film.notes)(shown, settings)?;
+        Ok(((film.make)(cut, shown, settings)?, notes))
     }
 
     /// Makes the files as [`Format::write`], but takes a format that cannot be made of this cut for no error, so that
@@ -480,7 +517,7 @@ impl Format {
             put(name, bytes)
         };
         let made = self.notes(cut, settings).and_then(|notes| {
-            (self.make)(cut, settings, &mut put_one)?;
+            self.put(cut, settings, &mut put_one)?;
             Ok(Attempt::Made(notes))
         });
         made.or_else(|error| if has_begun { Err(error) } else { Ok(Attempt::NotMade(error)) })
@@ -496,20 +533,16 @@ impl Format {
     /// # Errors
     /// The errors of [`Format::write`].
     pub fn notes(&self, cut: &Cut<'_>, settings: &Settings) -> Result<Vec<Warning>, Error> {
-        (self.notes)(cut, settings)
+        match self.film {
+            None => (self.notes)(cut, settings),
+            Some(film) => (film.notes)(&SideBySide::Source(cut.clip, cut.sheet), settings),
+        }
     }
 }
 
 /// Number of koma that have a drawing of the first layer.
 fn drawn(sheet: &Sheet) -> usize {
     sheet.layers.first().map_or(0, Layer::length)
-}
-
-/// Warns if a picture shows only the beginning of a long sheet of `koma` koma.
-fn shortened(name: &str, most: usize, koma: usize) -> Vec<Warning> {
-    let message =
-        format!("{name} shows the first {most} of {koma} koma; {name}.most says how many");
-    if koma > most { vec![Warning::new("W_SHORTENED", message)] } else { vec![] }
 }
 
 impl fmt::Debug for Format {

@@ -1,21 +1,22 @@
 //! Builds the flip-book (パラパラ): one HTML file that plays the sheet.
 
+use std::borrow::Cow;
+
 use serde::{Deserialize, Serialize};
 
 use crate::browser::{self, PageFigure, STEPS, Steps, axes};
 use crate::canvas::escaped;
-use crate::drawings::{
-    beginning, composed, drawn_poses, seconds_and_koma, shown_as, sliding_poses,
-};
+use crate::drawings::{beginning, drawn_poses, seconds_and_koma, shown_as, sliding_poses};
 use crate::figure::{Figure, FigureBody};
 use crate::points::Posing;
 use crate::shared;
+use crate::side_by_side::{PlayedOut, Reel, SideBySide, longest, runs};
 use genga::error::Error;
 use genga::knob::{Knobs, knobs};
-use genga::motion::{Camera, Clip, Composite, played_out};
-use genga::sheet::{Layer, Number, Sheet, Source};
+use genga::motion::Camera;
+use genga::sheet::{Layer, Number, Source};
 
-/// A flip-book (パラパラ): source and result as one self-contained HTML file. It plays, steps by koma and by
+/// A flip-book (パラパラ): what stands side by side as one self-contained HTML file. It plays, steps by koma and by
 /// drawing, and turns to every side. In the rounds of a loop (リピート) the body travels on.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
@@ -37,10 +38,12 @@ impl Default for FlipBook {
 
 const PAGE: &str = include_str!("flipbook/page.html");
 const LOOK: &str = include_str!("flipbook/look.css");
-const SCRIPTS: [&str; 4] = [
+const SCRIPTS: [&str; 6] = [
     include_str!("flipbook/words.js"),
     browser::FIGURE,
+    include_str!("flipbook/reel.js"),
     include_str!("flipbook/sheet.js"),
+    include_str!("flipbook/panels.js"),
     include_str!("flipbook/player.js"),
 ];
 
@@ -48,11 +51,8 @@ const SCRIPTS: [&str; 4] = [
 #[derive(Serialize)]
 struct Take<'a> {
     cut: &'a str,
-    column: &'a str,
     koma_rate: f64,
     koma: usize,
-    /// How often the exposures of a loop come again.
-    rounds: usize,
     length: String,
     height: f64,
     points: usize,
@@ -60,21 +60,39 @@ struct Take<'a> {
     camera: &'a str,
     /// Name of each camera, and its axes: right, up, near.
     views: Vec<(&'a str, [[f64; 3]; 3])>,
+    /// Source pose of each koma, if the source is beside the sheet: x, y, z of each point, in steps.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    source: Option<Vec<Vec<i32>>>,
+    sheets: Vec<PageSheet<'a>>,
+    /// First koma and number of koma of each passage in which two sheets show different drawings.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    differences: Vec<(usize, usize)>,
+}
+
+/// A sheet of the page.
+#[derive(Serialize)]
+struct PageSheet<'a> {
+    /// Its name, if there are two.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    name: Option<&'a str>,
+    column: &'a str,
+    /// Number of koma of its own cut; after them it holds what stands there.
+    koma: usize,
+    /// How often the exposures of a loop come again.
+    rounds: usize,
     /// Drawing, first koma and number of koma on screen of each exposure.
     cells: Vec<[usize; 3]>,
     drawings: Vec<PageDrawing>,
-    /// Source pose of each koma: x, y, z of each point, in steps.
-    source: Vec<Vec<i32>>,
-    /// Result pose of each koma, in the same form, if held drawings slide.
+    /// Pose of each koma from the first exposure on, if held drawings slide.
     #[serde(skip_serializing_if = "Option::is_none")]
     sliding: Option<Vec<Vec<i32>>>,
 }
 
 #[derive(Serialize)]
 struct PageDrawing {
-    role: &'static str,
     /// Number in the CELL column, 3 or "3a".
     number: Number,
+    role: &'static str,
     genga: Option<Number>,
     /// Place in the source, to a tenth of a frame.
     frame: f64,
@@ -101,15 +119,17 @@ impl FlipBook {
     /// # Errors
     /// [`Error::Setting`] as in [`FlipBook::validate`]; [`Error::Sheet`] or [`Error::Picture`] if clip and
     /// sheet have nothing to show.
-    pub fn draw(&self, cut: &str, clip: &Clip, sheet: &Sheet) -> Result<String, Error> {
+    pub fn draw(&self, cut: &str, shown: &SideBySide<'_>) -> Result<String, Error> {
         self.validate()?;
-        let (named, rounds) = (composed(clip, sheet)?.layer().clone(), sheet.rounds());
-        let (clip, sheet) = played_out(clip, sheet);
-        let (clip, sheet) = (&*clip, &*sheet);
-        let composite = composed(clip, sheet)?;
-        let layer = beginning(composite.layer(), self.most);
-        let take = self.take(cut, &composite, sheet, (&layer, &named, rounds));
-        let take = browser::json_in_script(&take)?;
+        let played = match *shown {
+            // The page itself plays again and again.
+            SideBySide::Source(clip, sheet) => vec![PlayedOut::new(clip, sheet)?.without_blank()],
+            SideBySide::Versions(_) => shown.played_out()?,
+        };
+        let reels = played.iter().map(PlayedOut::reel).collect::<Result<Vec<_>, _>>()?;
+        let layers: Vec<_> =
+            reels.iter().map(|reel| beginning(reel.composite.layer(), self.most)).collect();
+        let take = browser::json_in_script(&self.take((cut, shown), &reels, &layers)?)?;
         let filled = [
             ("{{title}}", escaped(cut)),
             ("{{look}}", LOOK.to_owned()),
@@ -121,56 +141,82 @@ impl FlipBook {
 
     fn take<'a>(
         &'a self,
-        cut: &'a str,
-        composite: &Composite<'_>,
-        sheet: &Sheet,
-        (layer, named, rounds): (&'a Layer, &Layer, usize),
-    ) -> Take<'a> {
-        let clip = composite.clip();
-        let koma = layer.length();
-        let place = |koma| Source::At(sheet.clock.place_from_koma(koma));
+        (cut, shown): (&'a str, &SideBySide<'a>),
+        reels: &'a [Reel<'_>],
+        layers: &'a [Cow<'_, Layer>],
+    ) -> Result<Take<'a>, Error> {
+        let clip = reels[0].composite.clip();
+        let koma = longest(reels).min(self.most);
+        let clock = reels[0].sheet.clock;
         let figure = Figure::new(clip, self.body);
-        let marks = figure.marks();
-        let source = Posing::new(clip, marks).all((0..koma).map(place));
-        let result = drawn_poses(composite, marks, layer.drawings.len());
-        let sliding = sliding_poses(composite, marks, koma);
+        let source = Posing::new(clip, figure.marks())
+            .all((0..koma).map(|koma| Source::At(clock.place_from_koma(koma))));
         let views = Camera::ALL.map(|camera| (camera.word(), camera.view(clip, &source)));
-        let auto = views[3].1;
-        let steps = Steps::new(&figure, &auto, &source);
-        let cells = shown_as(layer, named);
-        // A drawing that is never shown keeps its own numbers.
-        let mut numbers: Vec<_> = layer.numbers().into_iter().zip(layer.genga_numbers()).collect();
-        cells.iter().for_each(|cell| numbers[cell.index] = (cell.number(), cell.genga_number()));
-        let drawings = layer.drawings.iter().zip(&result).zip(numbers);
-        Take {
+        let steps = Steps::new(&figure, &views[3].1, &source);
+        let names = match *shown {
+            SideBySide::Source(..) => [None, None],
+            SideBySide::Versions(versions) => versions.map(|version| Some(version.name)),
+        };
+        let sheets = reels.iter().zip(layers).zip(names);
+        let differences = shown.differences()?;
+        let whole = names[0].is_none();
+        Ok(Take {
             cut,
-            column: &layer.name,
-            koma_rate: sheet.clock.koma_rate,
+            koma_rate: clock.koma_rate,
             koma,
-            rounds,
-            length: seconds_and_koma(koma, sheet.clock.koma_rate),
+            length: seconds_and_koma(koma, clock.koma_rate),
             height: STEPS,
             points: browser::points(&figure, &source[0]).len(),
             figure: PageFigure::new(&figure, &source[0], steps.unit),
             camera: self.camera.word(),
             views: views.into_iter().map(|(word, view)| (word, axes(&view))).collect(),
-            cells: cells.iter().map(|cell| [cell.index, cell.koma, cell.held]).collect(),
+            source: whole.then(|| source.iter().map(|pose| steps.all(&figure, pose)).collect()),
+            sheets: sheets
+                .map(|((reel, layer), name)| PageSheet::new(name, reel, layer, (&figure, &steps)))
+                .collect(),
+            differences: runs(&differences[..koma.min(differences.len())]).collect(),
+        })
+    }
+}
+
+impl<'a> PageSheet<'a> {
+    /// Describes a sheet of which the page shows the first koma, `layer`.
+    fn new(
+        name: Option<&'a str>,
+        reel: &Reel<'_>,
+        layer: &'a Layer,
+        (figure, steps): (&Figure, &Steps),
+    ) -> Self {
+        let (composite, marks) = (&reel.composite, figure.marks());
+        let poses = drawn_poses(composite, marks, layer.drawings.len());
+        let sliding = sliding_poses(composite, marks, layer.length());
+        let cells = shown_as(layer, reel.named);
+        // A drawing that is never shown keeps its own numbers.
+        let mut numbers: Vec<_> = layer.numbers().into_iter().zip(layer.genga_numbers()).collect();
+        cells.iter().for_each(|cell| numbers[cell.index] = (cell.number(), cell.genga_number()));
+        let before = reel.sheet.blank.before;
+        let drawings = layer.drawings.iter().zip(&poses).zip(numbers);
+        Self {
+            name,
+            column: &layer.name,
+            koma: reel.length(),
+            rounds: reel.rounds,
+            cells: cells.iter().map(|cell| [cell.index, before + cell.koma, cell.held]).collect(),
             drawings: drawings
                 .map(|((drawing, pose), (number, genga))| PageDrawing {
-                    role: drawing.role.word(),
                     number,
+                    role: drawing.role.word(),
                     genga,
                     frame: (drawing.source.place() * 10.0).round() / 10.0,
                     pinned: drawing.why.pinned.is_some(),
                     why: drawing.why.to_string(),
                     why_japanese: drawing.why.japanese(),
                     omitted: drawing.why.omitted_before,
-                    pose: steps.all(&figure, pose),
+                    pose: steps.all(figure, pose),
                 })
                 .collect(),
-            source: source.iter().map(|pose| steps.all(&figure, pose)).collect(),
             sliding: sliding
-                .map(|poses| poses.iter().map(|pose| steps.all(&figure, pose)).collect()),
+                .map(|poses| poses.iter().map(|pose| steps.all(figure, pose)).collect()),
         }
     }
 }

@@ -1,4 +1,4 @@
-//! The animated preview: source beside result as a GIF.
+//! The animated preview: source beside result, or two versions of a take, as a GIF.
 //!
 //! The format is GIF rather than APNG, because every mail, chat and office program plays it, while many show
 //! only the first picture of an APNG. It also compresses a few plain colours well. A GIF cannot express 1/24
@@ -9,6 +9,8 @@
 
 #[cfg(feature = "pictures")]
 mod ahead;
+#[cfg(feature = "pictures")]
+mod backdrop;
 #[cfg(feature = "pictures")]
 mod draw;
 #[cfg(feature = "pictures")]
@@ -26,7 +28,7 @@ use genga::error::Error;
 use genga::knob::{Knobs, knobs};
 use genga::motion::Camera;
 
-/// An animated preview (プレビュー): source beside result at 24 koma a second, as a GIF that repeats.
+/// An animated preview (プレビュー): what stands side by side at 24 koma a second, as a GIF that repeats.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Preview {

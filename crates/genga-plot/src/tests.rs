@@ -22,6 +22,7 @@ mod moving;
 mod print;
 mod ssd;
 mod study_chart;
+mod versions;
 
 const GENGA: &str = "#c83210";
 const END: &str = "#30343c";

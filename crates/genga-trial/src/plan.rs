@@ -89,8 +89,8 @@ const METHOD: [&str; 14] = [
     "Koma that never were on screen are counted alike for every film, whether or not another drawing would have come.",
     "Scores are those of Bradley and Terry, of each question by itself, with a mean of 0; catch pairs are not among the answers.",
     "Intervals of 95 % come from a bootstrap over persons, 2000 draws, widened for few persons as Hesterberg (2015) says.",
-    "One comparison decides, for each question: genga minus uniform, which has as many drawings. It is decided where its \
-     interval does not hold 0. All others are told and decide nothing.",
+    "One comparison decides, for each question, if both are conditions: genga minus uniform, which has as many drawings. It \
+     is decided where its interval does not hold 0. All others are told and decide nothing.",
     "With fewer persons who count than fewest_persons nothing is decided.",
 ];
 

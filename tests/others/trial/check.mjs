@@ -103,7 +103,7 @@ class Visit {
 }
 
 // How somebody chooses: the number of the film, by the worth of its condition.
-const WORTH = ["genga", "source", "uniform", "twos", "threes"];
+const WORTH = ["genga", "tanaka", "source", "uniform", "suzuki", "twos", "threes"];
 const worth = (name) => (name === plan.catch.film ? WORTH.length : WORTH.indexOf(name));
 const careful = ([first, second]) => (worth(first) <= worth(second) ? 1 : 2);
 const careless = ([first, second]) => (worth(first) >= worth(second) ? 1 : 2);

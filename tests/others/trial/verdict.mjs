@@ -12,6 +12,8 @@ assert.deepEqual(reasons, ["caught", "screen"]);
 assert.deepEqual(verdict.excluded.find(({ reason }) => reason.caught).reason.caught, { wrong: 6, of: 6 });
 for (const { question, answers, scores } of verdict.questions) {
   assert.equal(answers, 2 * Number(pairs), question);
+  const own = scores.map(({ condition }) => condition).filter((name) => ["tanaka", "suzuki"].includes(name));
+  assert.equal(own.length, 2, `a person's own sheets are in the outcome of ${question}`);
   assert.equal(scores[0].condition, "genga", question);
   assert.equal(scores[0].taken, scores[0].shown, "both always took it");
 }

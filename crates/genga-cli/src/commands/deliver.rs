@@ -1,6 +1,6 @@
 //! `genga deliver`: writes a sheet, edited or not, in other formats.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 
@@ -10,12 +10,12 @@ use crate::cut_args::{self, CutArgs};
 use crate::failure::Failure;
 use crate::folder::{Folder, Made};
 use crate::format_args::{FormatArgs, FormatName, Formats, all_made, help, long_help};
-use crate::into_args::{self, IntoArgs};
+use crate::into_args::IntoArgs;
 use crate::staging::Bundle;
-use crate::{files, paths};
+use crate::{paths, sheets};
 use genga::error::Error;
+use genga_files::Cut;
 use genga_files::sheet_json::SheetFile;
-use genga_files::{Cut, sheet_json, xdts};
 
 #[derive(Debug, Args)]
 #[command(after_help = help(), after_long_help = long_help())]
@@ -54,7 +54,7 @@ pub(super) fn run(args: &DeliverArgs, words: &Words) -> Result<(), Failure> {
         return Err(Failure::AskedWrongly(message));
     }
     paths::check_folder(args.out.as_deref(), "deliver", "")?;
-    let folder = args.out.as_deref().unwrap_or_else(|| beside(&args.sheet));
+    let folder = args.out.as_deref().unwrap_or_else(|| sheets::beside(&args.sheet));
     formats.leave_sheet(&args.sheet, folder)?;
     formats.spare_edited(folder)?;
     let mut file = read(args, words)?;
@@ -118,41 +118,8 @@ pub(super) fn run(args: &DeliverArgs, words: &Words) -> Result<(), Failure> {
 
 /// Reads the sheet, with the timing of an edited timesheet where the arguments name one.
 fn read(args: &DeliverArgs, words: &Words) -> Result<SheetFile, Failure> {
-    let (bytes, of_sheet) = (files::read(&args.sheet)?, files::fault_of(&args.sheet));
-    if !xdts::is_timesheet(&bytes) {
-        if args.drawings.is_some() {
-            let message = "--drawings belongs to a timesheet, XDTS or TDTS, and this is none";
-            return Err(Failure::AskedWrongly(message.into()));
-        }
-        return sheet_json::read(&bytes).map_err(of_sheet);
-    }
-    let timesheet = xdts::read_cells(&bytes).map_err(&of_sheet)?;
-    let path = args.drawings.clone().or_else(|| own_sheet(&args.sheet)).ok_or_else(|| {
-        Failure::AskedWrongly(format!(
-            "{}: a timesheet has numbers alone, and no sheet.json is beside it: name the one that it came from with \
-             --drawings kick-genga/sheet.json",
-            args.sheet.display()
-        ))
-    })?;
-    let file = sheet_json::read(&files::read(&path)?).map_err(files::fault_of(&path))?;
-    words.say(format_args!("drawings    動画       those of {}", path.display()));
-    let unread = into_args::unread(&bytes, &args.sheet)?;
-    unread.iter().for_each(|said| words.say(format_args!("note        {said}")));
-    let names: Vec<&str> = file.sheet.layers.iter().map(|layer| &*layer.name).collect();
-    let others: Vec<&str> = timesheet
-        .columns
-        .iter()
-        .map(|column| &*column.name)
-        .filter(|name| !names.contains(name))
-        .collect();
-    if timesheet.columns.len() > 1 && !others.is_empty() {
-        words.say(format_args!(
-            "note        columns of no layer of the sheet, passed over: {}",
-            others.join(", ")
-        ));
-    }
-    let sheet = xdts::retimed(&timesheet, &file.sheet).map_err(of_sheet)?;
-    Ok(SheetFile { sheet, ..file })
+    let way_out = "name the one that it came from with --drawings kick-genga/sheet.json";
+    sheets::read(&args.sheet, (args.drawings.as_deref(), way_out), words)
 }
 
 fn placed_wrongly(error: Error) -> Failure {
@@ -160,16 +127,4 @@ fn placed_wrongly(error: Error) -> Failure {
         Error::Edits { message } => Failure::AskedWrongly(message),
         other => other.into(),
     }
-}
-
-/// Finds the sheet.json that a timesheet was made from: beside it, or up to two folders above, as in a cut folder.
-fn own_sheet(timesheet: &Path) -> Option<PathBuf> {
-    let folders = beside(timesheet).ancestors().take(3);
-    folders.map(|folder| folder.join("sheet.json")).find(|file| file.is_file())
-}
-
-/// The folder that contains a file.
-fn beside(file: &Path) -> &Path {
-    let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty());
-    folder.unwrap_or(Path::new("."))
 }

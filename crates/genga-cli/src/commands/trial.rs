@@ -6,16 +6,17 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
+use super::preview::DRAWINGS;
 use crate::clip::{ClipArgs, OfSheet, Part};
 use crate::console::{Words, counted};
 use crate::corrections::Corrections;
 use crate::failure::Failure;
 use crate::plan::{Plan, PlanArgs, TargetArgs};
 use crate::staging::Bundle;
-use crate::{files, paths};
+use crate::{files, paths, sheets};
 use genga::motion::Clip;
 use genga::sheet::Sheet;
-use genga_files::sheet_json::{self, SheetFile};
+use genga_files::sheet_json::SheetFile;
 use genga_plot::{Camera, FigureBody};
 use genga_trial::{Answer, Bootstrap, Condition, OwnSheet, Take, Trial, Verdict};
 
@@ -35,6 +36,7 @@ before anybody answers: it lists the conditions, the numbers, which persons coun
 Examples:
   genga trial kick.bvh jump.bvh --out page
   genga trial kick.bvh --sheet hand=by-hand.json --conditions source,genga --out page
+  genga trial kick.bvh --sheet a=kick-genga --sheet b=kick-ones.xdts --conditions none --out page
   genga trial kick.bvh --drawings-per-second 12 --out page    genga with as many drawings as twos
   genga trial --read answers-*.csv";
 
@@ -50,13 +52,14 @@ pub(super) struct TrialArgs {
     corrections: Corrections,
     #[command(flatten)]
     targets: TargetArgs,
-    /// Add your own sheet as a condition: --sheet hand=by-hand.json; with several clips, once for each. A sheet belongs
-    /// to the clip with the file name that it was made of.
-    #[arg(long, value_name = "NAME=SHEET.json", value_parser = named)]
+    /// Add your own sheet as a condition: --sheet hand=by-hand.json; with several clips, once for each. A sheet is a
+    /// sheet.json, a results folder, or a timesheet of all drawings (XDTS or TDTS), and belongs to the clip with the
+    /// file name that it was made of.
+    #[arg(long, value_name = "NAME=SHEET", value_parser = named)]
     sheet: Vec<(String, PathBuf)>,
-    /// Other conditions to include [default: all].
-    #[arg(long, value_name = "NAME,…", value_delimiter = ',')]
-    conditions: Option<Vec<Condition>>,
+    /// Other conditions to include, none for your own sheets alone [default: all].
+    #[arg(long, value_name = "NAME,…", value_delimiter = ',', value_parser = condition)]
+    conditions: Option<Vec<Option<Condition>>>,
     /// Number of pairs that a person sees for each question.
     #[arg(long, value_name = "N", default_value_t = Trial::default().pairs)]
     pairs: usize,
@@ -82,8 +85,18 @@ pub(super) struct TrialArgs {
 
 fn named(text: &str) -> Result<(String, PathBuf), String> {
     let (name, path) =
-        text.split_once('=').ok_or("expected NAME=SHEET.json, as in hand=by-hand.json")?;
+        text.split_once('=').ok_or("expected NAME=SHEET, as in hand=by-hand.json")?;
     Ok((name.trim().into(), path.into()))
+}
+
+/// Parses the name of a condition; `None` for the word none.
+fn condition(text: &str) -> Result<Option<Condition>, String> {
+    match text.trim() {
+        "none" => Ok(None),
+        name => {
+            name.parse().map(Some).map_err(|error: String| format!("{error}; none leaves out all"))
+        }
+    }
 }
 
 pub(super) fn run(args: &TrialArgs, words: &Words) -> Result<(), Failure> {
@@ -105,14 +118,17 @@ struct Ready<'a> {
 fn make(args: &TrialArgs, folder: &Path, words: &Words) -> Result<(), Failure> {
     paths::check_folder(Some(folder), "trial", "")?;
     let trial = Trial {
-        conditions: args.conditions.clone().unwrap_or(Trial::default().conditions),
+        conditions: match &args.conditions {
+            Some(asked) => asked.iter().copied().flatten().collect(),
+            None => Trial::default().conditions,
+        },
         pairs: args.pairs,
         camera: args.camera,
         body: args.body,
     };
     trial.validate()?;
     let names = paths::names(&args.clips);
-    let sheets = OwnSheets::read(args)?;
+    let sheets = OwnSheets::read(args, words)?;
     let ready = args.clips.iter().zip(names).map(|(path, name)| {
         let own = sheets.find(path, args, words)?;
         let clip = ClipArgs { path: path.clone(), part: args.part.clone() };
@@ -162,12 +178,13 @@ impl Ready<'_> {
 }
 
 /// Sheets made by a person.
-struct OwnSheets<'a>(Vec<(&'a str, &'a Path, SheetFile)>);
+struct OwnSheets<'a>(Vec<(&'a str, PathBuf, SheetFile)>);
 
 impl<'a> OwnSheets<'a> {
-    fn read(args: &'a TrialArgs) -> Result<Self, Failure> {
+    fn read(args: &'a TrialArgs, words: &Words) -> Result<Self, Failure> {
         let read = |(name, path): &'a (String, PathBuf)| {
-            let file = sheet_json::read(&files::read(path)?).map_err(files::fault_of(path))?;
+            let path = sheets::file_of(path)?;
+            let file = sheets::read(&path, (None, DRAWINGS), words)?;
             let is_of = |clip: &&PathBuf| paths::file_name(clip) == file.clip.file;
             if args.clips.len() > 1 && args.clips.iter().filter(is_of).count() != 1 {
                 return Err(Failure::AskedWrongly(format!(
@@ -176,7 +193,7 @@ impl<'a> OwnSheets<'a> {
                     file.clip.file
                 )));
             }
-            Ok((&name[..], path.as_path(), file))
+            Ok((&name[..], path, file))
         };
         args.sheet.iter().map(read).collect::<Result<_, _>>().map(Self)
     }

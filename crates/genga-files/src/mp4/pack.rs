@@ -5,9 +5,8 @@ use std::fs;
 
 use super::Mp4;
 use super::ffmpeg::{self, Ffmpeg};
-use crate::{Cut, Sink};
 use genga::error::{Error, Warning};
-use genga_plot::{FigureBody, Preview};
+use genga_plot::{FigureBody, Preview, SideBySide};
 
 /// The product, as named in errors.
 const MADE: &str = "the video";
@@ -18,23 +17,22 @@ impl Mp4 {
         ffmpeg::check(&self.ffmpeg).map(|()| genga_plot::font_note().into_iter().collect())
     }
 
-    /// Draws the pictures and encodes them.
-    pub(crate) fn write(
+    /// Draws the pictures of what stands side by side, and encodes them as a video.
+    pub(crate) fn encode(
         &self,
         body: FigureBody,
-        cut: &Cut<'_>,
-        put: &mut Sink<'_>,
-    ) -> Result<(), Error> {
+        cut: &str,
+        shown: &SideBySide<'_>,
+    ) -> Result<Vec<u8>, Error> {
         self.validate()?;
-        let mut packer = Packer::begin(self, cut.sheet.clock.koma_rate)?;
+        let mut packer = Packer::begin(self, shown.koma_rate())?;
         let (camera, width, height) = (self.camera, self.width, self.height);
         Preview { camera, body, width, height, ..Preview::default() }.play(
-            cut.name,
-            cut.clip,
-            cut.sheet,
+            cut,
+            shown,
             |picture| packer.ffmpeg.feed(picture),
         )?;
-        put(&cut.file("CUT.mp4"), &packer.finish()?)
+        packer.finish()
     }
 }
 

@@ -106,6 +106,7 @@ fn a_genga_has_one_number_in_every_format() {
     }
 
     let book = json(&file("flipbook"), "{\"cut\"");
+    let book = &book["sheets"][0];
     let cells = book["cells"].as_array().unwrap().iter();
     let genga = cells.map(|cell| &book["drawings"][number(&cell[0]).unwrap()]["genga"]);
     assert_eq!(genga.filter_map(number).collect::<Vec<_>>(), SHOWN, "flip-book");

@@ -1,15 +1,6 @@
 // The player: what is shown, and what keys, buttons and the mouse do to it.
-const take = JSON.parse(document.getElementById("take").textContent);
-const by = (id) => document.getElementById(id);
 const views = new Map(take.views);
 const last = take.koma - 1;
-
-// For each koma its cell, and the cell of the key that stands before it.
-const cellOf = [];
-take.cells.forEach(([, , held], cell) => { for (let at = 0; at < held; at++) cellOf.push(cell); });
-const isKey = (cell) => take.drawings[take.cells[cell][0]].role !== "inbetween";
-const keyOf = [];
-take.cells.forEach((_, cell) => keyOf.push(isKey(cell) || cell === 0 ? cell : keyOf[cell - 1]));
 
 const state = {
   koma: 0, playing: false, loop: true, onion: false, keys: false, speed: 1,
@@ -17,14 +8,13 @@ const state = {
   dark: matchMedia("(prefers-color-scheme: dark)").matches,
   language: navigator.language.startsWith("ja") ? "ja" : "en",
 };
-const poses = take.source.concat(take.drawings.map((drawing) => drawing.pose));
-const stage = new Stage(take, poses, views.get(state.camera));
+const drawn = reels.flatMap((reel) => reel.drawings.map((drawing) => drawing.pose));
+const stage = new Stage(take, (take.source ?? []).concat(drawn), views.get(state.camera));
 stage.goAlong(stage.isFar());
 let colors = {};
 let started = { time: 0, koma: 0 };
 
 const word = (name) => WORDS[state.language][name];
-const drawingOf = (koma) => take.cells[state.keys ? keyOf[cellOf[koma]] : cellOf[koma]][0];
 
 function readColors() {
   document.documentElement.dataset.theme = state.dark ? "dark" : "light";
@@ -35,63 +25,62 @@ function readColors() {
 
 // Drawing.
 
-function drawStage(id, pose, skins) {
-  const canvas = document.querySelector(`#${id} canvas`);
-  if (by(id).hidden) return;
-  const [ctx, width, height] = prepared(canvas);
+function drawStage(panel) {
+  if (panel.figure.hidden) return;
+  const [ctx, width, height] = prepared(panel.canvas);
   stage.fit(width, height);
+  const pose = panel.pose(state.koma, state.keys);
+  if (!pose) return;
   stage.drawFloor(ctx, width, pose, colors.edge);
   // The skins stand where they are in the world, seen from where the figure is.
   const middle = stage.middle(pose);
-  for (const [skin, color] of skins) stage.draw(ctx, skin, [color, color, color, colors.paper, color], middle);
+  const skins = state.onion ? panel.skins(state.koma, state.keys) : [];
+  for (const [skin, name] of skins) {
+    const color = colors[name];
+    stage.draw(ctx, skin, [color, color, color, colors.paper, color], middle);
+  }
   stage.draw(ctx, pose, [colors.ink, colors.left, colors.right, colors.paper, colors.between]);
 }
 
-function sourceSkins() {
-  const near = [[-2, "old"], [2, "young"], [-1, "old"], [1, "young"]];
-  const skins = near.map(([step, color]) => [take.source[state.koma + step], colors[color]]);
-  return skins.filter(([pose]) => pose);
-}
-
-function resultSkins() {
-  const cell = cellOf[state.koma];
-  const neighbour = (from, step) => {
-    do from += step; while (state.keys && from >= 0 && from < take.cells.length && !isKey(from));
-    return take.cells[from];
-  };
-  const from = state.keys ? keyOf[cell] : cell;
-  const skins = [[neighbour(from, -1), "old"], [neighbour(from, 1), "young"]];
-  return skins.filter(([cell]) => cell).map(([cell, color]) => [take.drawings[cell[0]].pose, colors[color]]);
-}
-
 function draw() {
-  const drawing = drawingOf(state.koma);
-  drawStage("source", take.source[state.koma], state.onion ? sourceSkins() : []);
-  const slides = take.sliding && !state.keys;
-  drawStage("result", slides ? take.sliding[state.koma] : take.drawings[drawing].pose, state.onion ? resultSkins() : []);
-  drawBars(by("bars"), take, state.koma, colors);
-  drawColumn(by("column"), take, cellOf, state.koma, colors, [word("genga"), word("drawing")]);
-  say(drawing);
+  panels.forEach(drawStage);
+  drawBars(by("bars"), take, reels, state.koma, colors);
+  drawColumns(by("column"), take, reels, state.koma, colors, [word("genga"), word("drawing")]);
+  say();
 }
 
-function say(index) {
-  const drawing = take.drawings[index];
-  const [, begin, held] = take.cells[cellOf[state.koma]];
+function say() {
   const second = Math.round(take.koma_rate);
-  const role = drawing.genga ? `${word(drawing.role)} ${drawing.genga}` : word(drawing.role);
-  by("drawing").textContent = `${take.column}${drawing.number}`;
-  by("role").textContent = role;
-  document.querySelector("aside").className = drawing.role;
   by("koma").textContent = `${state.koma + 1} / ${take.koma}`;
   by("time").textContent = `${Math.floor(state.koma / second)}+${state.koma % second}`;
-  by("held").textContent = `${state.koma - begin + 1} / ${held}`;
-  by("frame").textContent = drawing.frame;
-  by("why").textContent = by("why").title = state.language === "en" ? drawing.why : drawing.why_japanese;
   by("scrub").value = state.koma + 1;
-  const text = `${word("koma")} ${state.koma + 1}, ${word("drawing")} ${drawing.number}, ${role}`;
+  const drawings = reels.map((reel, at) => sayDrawing(reel, told[at]));
+  // Keys alone are other drawings than those that the sheets have here.
+  const different = !state.keys && isDifferent(take, state.koma);
+  by("different").hidden = !different;
+  const text = [`${word("koma")} ${state.koma + 1}`, ...drawings, ...(different ? [word("different")] : [])].join(", ");
   by("scrub").setAttribute("aria-valuetext", text);
   // While it plays nobody could follow.
   if (!state.playing) by("status").textContent = text;
+}
+
+// Tells which drawing of a sheet is shown, and returns it in words.
+function sayDrawing(reel, place) {
+  const drawing = reel.drawing(state.koma, state.keys);
+  if (!drawing) {
+    place.number.className = "number";
+    for (const text of ["drawing", "role", "held", "frame", "why"]) place[text].textContent = "";
+    return word("blank");
+  }
+  const [, begin, held] = reel.cells[reel.cell(state.koma)];
+  const role = drawing.genga ? `${word(drawing.role)} ${drawing.genga}` : word(drawing.role);
+  place.drawing.textContent = `${reel.column}${drawing.number}`;
+  place.role.textContent = role;
+  place.number.className = `number ${drawing.role}`;
+  place.held.textContent = `${Math.min(state.koma - begin + 1, held)} / ${held}`;
+  place.frame.textContent = drawing.frame;
+  place.why.textContent = place.why.title = state.language === "en" ? drawing.why : drawing.why_japanese;
+  return [reel.name, word("drawing"), drawing.number, role].filter((part) => part).join(" ");
 }
 
 function label() {
@@ -111,15 +100,14 @@ function label() {
     by(id).title = word(id);
     by(id).setAttribute("aria-label", word(id));
   }
-  // A drawing that comes again in the next round of a loop is the same sheet of paper.
-  const shown = new Map(take.cells.map(([drawing]) => [take.drawings[drawing].number, take.drawings[drawing]]));
-  const genga = [...shown.values()].filter((drawing) => drawing.genga).length;
-  by("facts").textContent = word("facts")(take, genga, shown.size);
+  by("facts").textContent = facts();
   by("scrub").setAttribute("aria-label", word("scrub"));
   by("column").setAttribute("aria-label", word("column"));
-  for (const id of ["source", "result"]) {
-    document.querySelector(`#${id} canvas`).setAttribute("aria-label", `${word(id)}: ${word("stage")}`);
-    by(id).hidden = state.shown !== "both" && state.shown !== id;
+  by("different").title = word("different");
+  for (const { id, name = word(id), figure, caption, canvas, option } of panels) {
+    caption.textContent = option.textContent = name;
+    canvas.setAttribute("aria-label", `${name}: ${word("stage")}`);
+    figure.hidden = state.shown !== "both" && state.shown !== id;
   }
   const cameras = [...views.keys()].concat(state.angle ? ["turned"] : []);
   by("camera").replaceChildren(...cameras.map((name) => new Option(word(name), name)));
@@ -137,6 +125,19 @@ function label() {
   by("key-table").replaceChildren(...word("key_help").map(row));
 }
 
+// The length, the rounds, genga and drawings of each sheet, and on how many koma two sheets differ.
+function facts() {
+  const of = (reel) => {
+    // A drawing that comes again in the next round of a loop is the same sheet of paper.
+    const shown = new Map(reel.cells.map(([drawing]) => [reel.drawings[drawing].number, reel.drawings[drawing]]));
+    const genga = [...shown.values()].filter((drawing) => drawing.genga).length;
+    return [reel.name, word("counts")(reel.rounds, genga, shown.size)].filter((part) => part).join(": ");
+  };
+  const differ = (take.differences ?? []).reduce((sum, [, koma]) => sum + koma, 0);
+  const more = areTwo ? [word("differ")(differ)] : [];
+  return [word("length")(take), ...reels.map(of), ...more].join(word("between"));
+}
+
 // Doing.
 
 function goTo(koma) {
@@ -145,10 +146,12 @@ function goTo(koma) {
   draw();
 }
 
-function stepDrawing(step, wanted = () => true) {
-  let cell = cellOf[state.koma] + step;
-  while (cell >= 0 && cell < take.cells.length && !wanted(cell)) cell += step;
-  if (cell >= 0 && cell < take.cells.length) goTo(take.cells[cell][1]);
+function stepDrawing(step, keys = false) {
+  const begins = (only) => reels.flatMap((reel) => reel.begins(only)).sort((a, b) => a - b);
+  // From within a drawing, back is to the one before it.
+  const here = begins(false).findLast((begin) => begin <= state.koma) ?? state.koma;
+  const there = step > 0 ? begins(keys).find((begin) => begin > state.koma) : begins(keys).findLast((begin) => begin < here);
+  if (there !== undefined && there <= last) goTo(there);
 }
 
 function play(playing) {
@@ -200,8 +203,8 @@ const actions = {
   "koma-on": () => goTo(state.koma + 1),
   "drawing-back": () => stepDrawing(-1),
   "drawing-on": () => stepDrawing(1),
-  "genga-back": () => stepDrawing(-1, isKey),
-  "genga-on": () => stepDrawing(1, isKey),
+  "genga-back": () => stepDrawing(-1, true),
+  "genga-on": () => stepDrawing(1, true),
   first: () => goTo(0),
   last: () => goTo(last),
   loop: () => toggle("loop"),

@@ -1,4 +1,4 @@
-// The sheet: as bars under the stage, and as the columns of the paper that follow: genga in circles, drawings plain.
+// The sheets: as bars under the stage, and as the columns of the paper that follow: genga in circles, drawings plain.
 const ROW = 20;
 const NAMES = 18;
 
@@ -6,17 +6,23 @@ function roleColor(role, colors) {
   return { genga: colors.genga, end: colors.end, inbetween: colors.between }[role];
 }
 
-function drawBars(canvas, take, koma, colors) {
+// A row of bars a sheet; between two of them a line where they differ.
+function drawBars(canvas, take, reels, koma, colors) {
   const [ctx, width, height] = prepared(canvas);
   const one = width / take.koma;
-  for (const [drawing, begin, held] of take.cells) {
-    const role = take.drawings[drawing].role;
-    ctx.globalAlpha = role === "inbetween" ? 0.55 : 1;
-    ctx.fillStyle = roleColor(role, colors);
-    ctx.fillRect(begin * one, 4, Math.max(held * one - (one >= 3 ? 1 : 0), 0.5), height - 8);
-  }
+  const high = reels.length === 1 ? height - 8 : 9;
+  reels.forEach((reel, at) => {
+    const top = reels.length === 1 ? 4 : at * (height - high - 4) + 2;
+    for (const [drawing, begin, held] of reel.cells) {
+      const role = reel.drawings[drawing].role;
+      ctx.globalAlpha = role === "inbetween" ? 0.55 : 1;
+      ctx.fillStyle = roleColor(role, colors);
+      ctx.fillRect(begin * one, top, Math.max(held * one - (one >= 3 ? 1 : 0), 0.5), high);
+    }
+  });
   ctx.globalAlpha = 1;
   ctx.fillStyle = colors.ink;
+  for (const [begin, held] of take.differences ?? []) ctx.fillRect(begin * one, height / 2 - 2, held * one, 4);
   ctx.fillRect((koma + 0.5) * one - 1, 0, 2, height);
 }
 
@@ -25,24 +31,28 @@ function firstRow(koma, take, rows) {
   return Math.max(0, Math.min(koma - Math.floor(rows / 2), take.koma - Math.floor(rows)));
 }
 
-// The koma at a height of the column.
+// The koma at a height of the columns.
 function komaAt(y, koma, take, height) {
   return firstRow(koma, take, (height - NAMES) / ROW) + Math.floor((y - NAMES) / ROW);
 }
 
-function drawColumn(canvas, take, cellOf, koma, colors, names) {
+// Where the koma ends and where ACTION and CELL of each sheet are, as shares of the width.
+const COLUMNS = {
+  1: { koma: 0.22, sheets: [[0.4, 0.72]] },
+  2: { koma: 0.13, unlike: 0.18, sheets: [[0.27, 0.45], [0.65, 0.83]] },
+};
+
+function drawColumns(canvas, take, reels, koma, colors, names) {
   const [ctx, width, height] = prepared(canvas);
   const first = firstRow(koma, take, (height - NAMES) / ROW);
-  const [action, cell] = [0.4 * width, 0.72 * width];
+  const columns = COLUMNS[reels.length];
   ctx.textBaseline = "middle";
   ctx.textAlign = "center";
   ctx.font = "11px sans-serif";
   ctx.fillStyle = colors.faint;
-  ctx.fillText(names[0], action, 0.45 * NAMES);
-  ctx.fillText(names[1], cell, 0.45 * NAMES);
+  for (const sheet of columns.sheets) sheet.forEach((x, at) => ctx.fillText(names[at], x * width, 0.45 * NAMES));
   for (let at = first; at < take.koma && NAMES + (at - first) * ROW < height; at++) {
     const y = NAMES + (at - first) * ROW;
-    const [drawing, begin, held] = take.cells[cellOf[at]];
     if (at === koma) {
       ctx.fillStyle = colors.here;
       ctx.fillRect(0, y, width, ROW);
@@ -56,13 +66,30 @@ function drawColumn(canvas, take, cellOf, koma, colors, names) {
     ctx.font = "11px sans-serif";
     ctx.textAlign = "right";
     ctx.fillStyle = colors.faint;
-    ctx.fillText(at + 1, 0.22 * width, y + 0.55 * ROW);
-    if (at === begin) {
-      drawGenga(ctx, take.drawings[drawing], [action, y + 0.5 * ROW], colors);
-      drawNumber(ctx, take.drawings[drawing], [cell, y + 0.5 * ROW], colors);
-    } else {
-      for (const x of [action, cell]) drawHold(ctx, [x, y], at === begin + held - 1, colors);
+    ctx.fillText(at + 1, columns.koma * width, y + 0.55 * ROW);
+    if (isDifferent(take, at)) {
+      ctx.fillStyle = colors.ink;
+      ctx.textAlign = "center";
+      ctx.fillText("≠", columns.unlike * width, y + 0.55 * ROW);
     }
+    reels.forEach((reel, of) => drawCells(ctx, reel, at, [columns.sheets[of].map((x) => x * width), y], colors));
+  }
+}
+
+function isDifferent(take, koma) {
+  return (take.differences ?? []).some(([begin, held]) => begin <= koma && koma < begin + held);
+}
+
+// The drawing's marks where it begins, and lines as long as its own sheet holds it.
+function drawCells(ctx, reel, koma, [[action, cell], y], colors) {
+  const at = reel.cell(koma);
+  if (at === undefined) return;
+  const [drawing, begin, held] = reel.cells[at];
+  if (koma === begin) {
+    drawGenga(ctx, reel.drawings[drawing], [action, y + 0.5 * ROW], colors);
+    drawNumber(ctx, reel.drawings[drawing], [cell, y + 0.5 * ROW], colors);
+  } else if (koma < begin + held) {
+    for (const x of [action, cell]) drawHold(ctx, [x, y], koma === begin + held - 1, colors);
   }
 }
 

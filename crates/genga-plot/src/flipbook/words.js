@@ -10,12 +10,13 @@ const WORDS = {
     "koma-back": "one koma back", "koma-on": "one koma on",
     "drawing-back": "one drawing back", "drawing-on": "one drawing on",
     scrub: "koma", column: "sheet column, click for a koma", stage: "figure, drag to turn",
-    facts: (take, genga, drawings) =>
-      `${take.length} (${take.koma} koma${take.rounds > 1 ? `, ${take.rounds} rounds` : ""}) · ${genga} genga · ${drawings} drawings`,
+    length: (take) => `${take.length} (${take.koma} koma)`, between: " · ",
+    counts: (rounds, genga, drawings) => `${rounds > 1 ? `${rounds} rounds, ` : ""}${genga} genga, ${drawings} drawings`,
+    different: "different drawings", differ: (koma) => `≠ different drawings on ${koma} koma`, blank: "blank",
     drawing: "drawing",
     key_help: [
       ["Space", "play, stop"], ["← →", "one koma"], ["↑ ↓", "one drawing"], ["Shift ← →", "one genga"],
-      ["Home End", "first, last koma"], ["S", "source, result, side by side"], ["O", "onion skin"],
+      ["Home End", "first, last koma"], ["S", "left, right, side by side"], ["O", "onion skin"],
       ["K", "genga only"], ["F", "camera goes along"], ["L", "loop"], ["1 2 3 4", "front, side, three-quarter, auto"],
       ["− +", "slower, faster"], ["T", "dark, light"], ["J", "日本語"], ["?", "this list"],
     ],
@@ -29,12 +30,13 @@ const WORDS = {
     genga: "原画", inbetween: "中割り", end: "両端", of: "/", play: "再生", stop: "停止",
     "koma-back": "1コマ戻る", "koma-on": "1コマ進む", "drawing-back": "1枚戻る", "drawing-on": "1枚進む",
     scrub: "コマ", column: "シートの列、クリックでそのコマへ", stage: "人物、ドラッグで回す",
-    facts: (take, genga, drawings) =>
-      `尺 ${take.length}（${take.koma}コマ${take.rounds > 1 ? `、リピート${take.rounds}回` : ""}）・原画 ${genga}枚・動画 ${drawings}枚`,
+    length: (take) => `尺 ${take.length}（${take.koma}コマ）`, between: "　",
+    counts: (rounds, genga, drawings) => `${rounds > 1 ? `リピート${rounds}回・` : ""}原画 ${genga}枚・動画 ${drawings}枚`,
+    different: "絵が違う", differ: (koma) => `≠ 絵が違うコマ：${koma}`, blank: "空セル",
     drawing: "動画",
     key_help: [
       ["Space", "再生・停止"], ["← →", "1コマ"], ["↑ ↓", "1枚"], ["Shift ← →", "原画ごと"],
-      ["Home End", "最初・最後のコマ"], ["S", "素材・結果・並べて"], ["O", "オニオンスキン"],
+      ["Home End", "最初・最後のコマ"], ["S", "左・右・並べて"], ["O", "オニオンスキン"],
       ["K", "原画のみ"], ["F", "カメラが追う"], ["L", "ループ"], ["1 2 3 4", "正面・側面・斜め・自動"],
       ["− +", "遅く・速く"], ["T", "明・暗"], ["J", "English"], ["?", "この一覧"],
     ],

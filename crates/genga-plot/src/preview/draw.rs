@@ -6,16 +6,14 @@ use super::movie::Movie;
 use super::palette::Palette;
 use super::scene::{Cast, Scene};
 use super::{Preview, ahead};
-use crate::drawings::composed;
 use crate::figure::Figure;
 use crate::pixels::Pixels;
+use crate::side_by_side::{SideBySide, longest};
 use genga::error::Error;
-use genga::motion::{Clip, played_out};
-use genga::sheet::Sheet;
 
 impl Preview {
-    /// Draws a sheet beside its source as a GIF, and returns the number of koma shown; `cut` is the name
-    /// printed on it.
+    /// Draws what stands side by side as a GIF, and returns the number of koma shown; `cut` is the name printed on
+    /// it.
     ///
     /// # Errors
     /// [`Error::Setting`] as in [`Preview::validate`]; [`Error::Sheet`] or [`Error::Picture`] if clip and
@@ -23,56 +21,49 @@ impl Preview {
     pub fn draw(
         &self,
         cut: &str,
-        clip: &Clip,
-        sheet: &Sheet,
+        shown: &SideBySide<'_>,
         file: impl Write,
     ) -> Result<usize, Error> {
         self.validate()?;
         let palette = Palette::new();
         let mut movie = Movie::begin(file, (self.width, self.height), &palette)?;
-        let koma = self.each(cut, (clip, sheet), self.most, |at, pixels| {
-            movie.show(palette.indices(pixels.colors()), at, sheet.clock.koma_rate)
+        let rate = shown.koma_rate();
+        let koma = self.each(cut, shown, self.most, |at, pixels| {
+            movie.show(palette.indices(pixels.colors()), at, rate)
         })?;
-        movie.finish(koma, sheet.clock.koma_rate)?;
+        movie.finish(koma, rate)?;
         Ok(koma)
     }
 
-    /// Passes the picture of each koma of the whole sheet to `show`, and returns their number. A picture is
-    /// red, green, blue and 255 for each pixel, row after row.
+    /// Passes the picture of each koma to `show`, and returns their number. A picture is red, green, blue and 255
+    /// for each pixel, row after row.
     ///
     /// # Errors
     /// As [`Preview::draw`], and any error of `show`.
     pub fn play(
         &self,
         cut: &str,
-        clip: &Clip,
-        sheet: &Sheet,
+        shown: &SideBySide<'_>,
         mut show: impl FnMut(&[u8]) -> Result<(), Error>,
     ) -> Result<usize, Error> {
         self.validate()?;
-        self.each(cut, (clip, sheet), usize::MAX, |_, pixels| show(pixels.bytes()))
+        self.each(cut, shown, usize::MAX, |_, pixels| show(pixels.bytes()))
     }
 
-    /// Passes the picture of each koma of the cut, `most` at most, to `show`, and returns their number.
+    /// Passes the picture of each koma, `most` at most, to `show`, and returns their number.
     fn each(
         &self,
         cut: &str,
-        (clip, sheet): (&Clip, &Sheet),
+        shown: &SideBySide<'_>,
         most: usize,
         show: impl FnMut(usize, &Pixels) -> Result<(), Error>,
     ) -> Result<usize, Error> {
-        // The rounds of a loop are at other places and show the same drawings.
-        let named = composed(clip, sheet)?.layer().clone();
-        let (numbers, on_screen) = (named.numbers(), named.koma().take(most));
-        let (clip, sheet) = played_out(clip, sheet);
-        let (clip, sheet) = (&*clip, &*sheet);
-        let composite = composed(clip, sheet)?;
-        let koma = (sheet.blank.before + composite.layer().length() + sheet.blank.after).min(most);
-        let figure = Figure::new(clip, self.body);
-        let scene = Scene::new(self, cut, (&composite, &figure), sheet, koma)?;
-        let numbers = on_screen.map(|drawing| numbers[drawing].clone());
-        let cast = Cast::new((&composite, &figure), sheet, numbers);
-        ahead::play(&scene, cast, show)?;
+        let played = shown.played_out()?;
+        let reels = played.iter().map(|played| played.reel()).collect::<Result<Vec<_>, _>>()?;
+        let figure = Figure::new(reels[0].composite.clip(), self.body);
+        let koma = longest(&reels).min(most);
+        let scene = Scene::new(self, (cut, shown), (&reels, &figure), koma)?;
+        ahead::play(&scene, Cast::new(shown, &reels, &figure), show)?;
         Ok(koma)
     }
 }

@@ -3,31 +3,31 @@
 use glam::DVec3;
 
 use super::Preview;
-use crate::canvas::{Align, Canvas, Inks, Type};
-use crate::drawings::{ShownDrawing, drawn_poses, seconds_and_koma, shown_drawings};
+use super::backdrop::{Backdrop, Room};
+use crate::canvas::Inks;
+use crate::drawings::drawn_poses;
 use crate::figure::Figure;
 use crate::paper_point::Point;
 use crate::pixels::{Digits, Pixels};
 use crate::points::{Posing, Showing};
+use crate::side_by_side::{Reel, SideBySide};
 use crate::stage::{Bounds, Stage};
 use crate::style;
 use genga::error::Error;
-use genga::motion::Composite;
-use genga::sheet::{Layer, Number, Role, Sheet, Source};
-use genga::time::Clock;
+use genga::sheet::{Number, Source};
 
 /// Space above the figures and below the floor, in px.
 const TOP: f64 = 44.0;
-const BOTTOM: f64 = 70.0;
-const PAD: f64 = 12.0;
-/// Bars of the sheet: their height, and the distance of their top from the lower edge, in px.
-const BARS: (f64, f64) = (10.0, 40.0);
+pub(super) const BOTTOM: f64 = 70.0;
+pub(super) const PAD: f64 = 12.0;
 /// Ratio of width to height, relative to a panel's, above which the camera follows a motion.
 const FAR: f64 = 1.6;
 
 /// The fixed parts of the pictures.
 pub(super) struct Scene {
-    /// Stages of source and result.
+    /// Whether two versions differ, for each koma.
+    differences: Vec<bool>,
+    /// Stages of both panels.
     stages: [Stage; 2],
     /// Whether the camera follows the root.
     follows: bool,
@@ -35,95 +35,106 @@ pub(super) struct Scene {
     small: Digits,
     genga: Digits,
     plain: Digits,
+    /// Right end of the number in each panel, in px.
+    number_ends: [f64; 2],
     size: (f64, f64),
+    bars: Room,
     /// Number of koma.
     pub(super) koma: usize,
 }
 
 /// What changes from koma to koma.
 pub(super) struct Moment {
-    /// Koma of the cut.
+    /// Koma of the film.
     koma: usize,
-    /// What is on screen; `None` on a blank koma.
-    shown: Option<Shown>,
+    /// What stands in each panel; `None` on a blank koma.
+    panels: [Option<Shown>; 2],
 }
 
-/// Source and result on a koma.
+/// What a panel shows on a koma.
 struct Shown {
-    poses: [Vec<DVec3>; 2],
-    /// Number under which the drawing is known.
-    number: Number,
-    is_kept: bool,
+    pose: Vec<DVec3>,
+    /// Number under which the drawing is known, and whether it is a key; `None` for the source.
+    drawing: Option<(Number, bool)>,
 }
 
 /// Poses the figures, koma by koma.
 pub(super) struct Cast<'a> {
-    posing: Posing<'a>,
-    showing: Showing<'a>,
-    clock: Clock,
-    layer: &'a Layer,
-    /// Drawing on each koma of the sheet, and the number under which it is known.
-    drawings: Vec<(usize, Number)>,
-    /// Blank koma before the first drawing.
-    before: usize,
+    /// The source, if it is beside the sheet.
+    source: Option<Posing<'a>>,
+    reels: &'a [Reel<'a>],
+    /// Poses of each reel.
+    showing: Vec<Showing<'a>>,
+    /// Number of the drawing on each koma of each reel.
+    numbers: Vec<Vec<Number>>,
 }
 
 impl<'a> Cast<'a> {
-    /// Prepares the poses; `numbers` has the number of the drawing on each koma of the sheet.
-    pub(super) fn new(
-        (composite, figure): (&'a Composite<'a>, &'a Figure),
-        sheet: &Sheet,
-        numbers: impl Iterator<Item = Number>,
-    ) -> Self {
-        let layer = composite.layer();
+    /// Prepares the poses.
+    pub(super) fn new(shown: &SideBySide<'_>, reels: &'a [Reel<'a>], figure: &'a Figure) -> Self {
+        let marks = figure.marks();
+        let source = matches!(shown, SideBySide::Source(..))
+            .then(|| Posing::new(reels[0].composite.clip(), marks));
+        let numbers = |reel: &Reel<'_>| {
+            let numbers = reel.named.numbers();
+            reel.named.koma().map(|drawing| numbers[drawing].clone()).collect()
+        };
         Self {
-            posing: Posing::new(composite.clip(), figure.marks()),
-            showing: Showing::new(composite, figure.marks()),
-            clock: sheet.clock,
-            layer,
-            drawings: layer.koma().zip(numbers).collect(),
-            before: sheet.blank.before,
+            source,
+            reels,
+            showing: reels.iter().map(|reel| Showing::new(&reel.composite, marks)).collect(),
+            numbers: reels.iter().map(numbers).collect(),
         }
     }
 
-    /// Poses the figures of a koma of the cut.
+    /// Poses the figures of a koma of the film.
     pub(super) fn at(&mut self, koma: usize) -> Moment {
-        let own = koma.checked_sub(self.before);
-        let drawing = own.and_then(|own| Some((own, self.drawings.get(own)?.clone())));
-        let shown = drawing.map(|(own, (drawing, number))| {
-            let source = Source::At(self.clock.place_from_koma(own));
-            let poses = [self.posing.points(source), self.showing.points(drawing, own)];
-            Shown { poses, number, is_kept: self.layer.drawings[drawing].role.is_kept() }
-        });
-        Moment { koma, shown }
+        let mut panels = [None, None];
+        for (at, reel) in self.reels.iter().enumerate() {
+            let Some(on_screen) = reel.at(koma) else { continue };
+            if let Some(posing) = &mut self.source {
+                let place = reel.sheet.clock.place_from_koma(on_screen.koma);
+                panels[0] = Some(Shown { pose: posing.points(Source::At(place)), drawing: None });
+            }
+            let pose = self.showing[at].points(on_screen.drawing, on_screen.koma);
+            let is_kept = reel.composite.layer().drawings[on_screen.drawing].role.is_kept();
+            let drawing = Some((self.numbers[at][on_screen.koma].clone(), is_kept));
+            // A sheet alone stands in the second panel, beside its source.
+            panels[at + 2 - self.reels.len()] = Some(Shown { pose, drawing });
+        }
+        Moment { koma, panels }
     }
 }
 
 impl Scene {
-    /// Builds the scene of the first `koma` koma of a cut.
+    /// Builds the scene of the first `koma` koma of a film.
     pub(super) fn new(
         preview: &Preview,
-        cut: &str,
-        (composite, figure): (&Composite<'_>, &Figure),
-        sheet: &Sheet,
+        (cut, shown): (&str, &SideBySide<'_>),
+        (reels, figure): (&[Reel<'_>], &Figure),
         koma: usize,
     ) -> Result<Self, Error> {
         let size = (f64::from(preview.width), f64::from(preview.height));
-        let layer = composite.layer();
-        let (stage, follows) = stage(preview, composite, figure, size);
+        let (stage, follows) = stage(preview, reels, figure, size);
         let at = |panel: f64| (size.0 * (0.25 + 0.5 * panel), size.1 - BOTTOM);
         let stages = [0.0, 1.0].map(|panel| Stage { at: at(panel), ..stage.clone() });
-        let mut cells = shown_drawings(layer);
-        cells.iter_mut().for_each(|cell| cell.koma += sheet.blank.before);
-        let backdrop = Pixels::from_svg(&backdrop(cut, sheet, layer, &cells, koma, size, follows))?;
+        let differences = shown.differences()?;
+        let backdrop =
+            Backdrop { cut, shown, reels, differences: &differences, koma, size, follows };
+        let bars = backdrop.room();
+        let number_ends = [0, 1].map(|panel| backdrop.number_end(panel));
+        let backdrop = Pixels::from_svg(&backdrop.draw())?;
         Ok(Self {
+            differences,
             stages,
             follows,
             backdrop,
             small: Digits::new(style::WORDS, style::INK),
             genga: Digits::new(style::TITLE, style::GENGA),
             plain: Digits::new(style::TITLE, style::INBETWEEN),
+            number_ends,
             size,
+            bars,
             koma,
         })
     }
@@ -136,18 +147,32 @@ impl Scene {
     /// Draws a koma onto pixels of the backdrop's size.
     pub(super) fn draw(&self, moment: &Moment, pixels: &mut Pixels) {
         pixels.copy(&self.backdrop);
-        if let Some(Shown { poses, number, is_kept }) = &moment.shown {
-            poses.iter().enumerate().for_each(|(panel, pose)| self.figure(pixels, panel, pose));
-            let digits = if *is_kept { &self.genga } else { &self.plain };
-            digits.write(pixels, number, (self.size.0 - PAD, 28.0));
+        for (panel, shown) in moment.panels.iter().enumerate() {
+            let Some(Shown { pose, drawing }) = shown else { continue };
+            self.figure(pixels, panel, pose);
+            if let Some((number, is_kept)) = drawing {
+                let digits = if *is_kept { &self.genga } else { &self.plain };
+                digits.write(pixels, number, (self.number_ends[panel], 28.0));
+            }
         }
-        let height = self.size.1;
-        self.small.write(pixels, &(moment.koma + 1).into(), (PAD + 68.0, height - 10.0));
-        let bar = bar_width(self.size, self.koma);
-        let x = PAD + bar * (moment.koma as f64 + 0.5);
-        let (high, up) = BARS;
-        let head = (x - 1.0, height - up - 4.0);
-        pixels.rect(head, (2.0, high + 8.0), style::INK);
+        if self.differences.get(moment.koma) == Some(&true) {
+            self.unlike(pixels);
+        }
+        self.small.write(pixels, &(moment.koma + 1).into(), (PAD + 68.0, self.size.1 - 10.0));
+        let (head, high) = self.bars.here(moment.koma);
+        pixels.rect(head, (2.0, high), style::INK);
+    }
+
+    /// Marks between the panels that their drawings differ: ≠.
+    fn unlike(&self, pixels: &mut Pixels) {
+        let (x, y) = (0.5 * self.size.0, 24.0);
+        pixels.rect((x - 11.0, y - 12.0), (22.0, 24.0), style::PAPER);
+        for (from, to) in
+            [((-7.0, -3.0), (7.0, -3.0)), ((-7.0, 3.0), (7.0, 3.0)), ((4.0, -9.0), (-4.0, 9.0))]
+        {
+            let at = |(right, down): Point| (x + right, y + down);
+            pixels.line(at(from), at(to), style::INK, 2.0);
+        }
     }
 
     fn figure(&self, pixels: &mut Pixels, panel: usize, pose: &[DVec3]) {
@@ -180,13 +205,16 @@ impl Scene {
 /// Computes the stage of a panel, its middle yet to be set, and whether the camera follows the root.
 fn stage(
     preview: &Preview,
-    composite: &Composite<'_>,
+    reels: &[Reel<'_>],
     figure: &Figure,
     size: (f64, f64),
 ) -> (Stage, bool) {
-    let clip = composite.clip();
-    let poses = drawn_poses(composite, figure.marks(), composite.layer().drawings.len());
-    let view = preview.camera.view(clip, &poses);
+    let drawn = |reel: &Reel<'_>| {
+        let composite = &reel.composite;
+        drawn_poses(composite, figure.marks(), composite.layer().drawings.len())
+    };
+    let poses: Vec<Vec<DVec3>> = reels.iter().flat_map(drawn).collect();
+    let view = preview.camera.view(reels[0].composite.clip(), &poses);
     let bounds = Bounds::new(figure, &view, &poses);
     let room = (0.5 * size.0 - 2.0 * PAD, size.1 - TOP - BOTTOM);
     let follows = bounds.width() / bounds.height().max(1e-9) > FAR * room.0 / room.1;
@@ -206,65 +234,4 @@ fn against_root(
         half.max(bounds.right - root).max(root - bounds.left)
     });
     Bounds { left: -half, right: half, ..*all }
-}
-
-fn bar_width((width, _): (f64, f64), koma: usize) -> f64 {
-    (width - 2.0 * PAD) / koma as f64
-}
-
-/// Draws the parts that are the same on every koma: words, floors, the sheet as bars.
-fn backdrop(
-    cut: &str,
-    sheet: &Sheet,
-    layer: &Layer,
-    cells: &[ShownDrawing<'_>],
-    koma: usize,
-    size: (f64, f64),
-    follows: bool,
-) -> String {
-    let (width, height) = size;
-    let half = 0.5 * width;
-    let mut canvas = Canvas::new(size);
-    let floor = height - BOTTOM;
-    for (panel, words) in [(0.0, "source 素材"), (1.0, "result 結果")] {
-        let x = panel * half;
-        canvas.text(words, (x + PAD, 27.0), Type::new(style::WORDS).bold());
-        canvas.line((x + PAD, floor), (x + half - PAD, floor), style::RAW, 1.25);
-    }
-    canvas.line((half, 12.0), (half, floor), style::GRID, 1.0);
-    let look = Type::new(style::SMALL).color(style::FAINT).align(Align::Right);
-    canvas.text("drawing 動画", (width - PAD - 46.0, 27.0), look);
-    if follows {
-        canvas.text("camera goes along", (half - PAD, 27.0), look);
-    }
-    bars(&mut canvas, cells, koma, size);
-    let base = height - 10.0;
-    canvas.text("koma", (PAD, base), Type::new(style::WORDS).color(style::FAINT));
-    let whole = sheet.blank.before + layer.length() + sheet.blank.after;
-    let length = seconds_and_koma(whole, sheet.clock.koma_rate);
-    let more = if koma < whole { format!(", the first {koma} shown") } else { String::new() };
-    let of = format!("of {whole} (尺 {length}){more}");
-    let faint = Type::new(style::WORDS).color(style::FAINT);
-    canvas.text(&of, (PAD + 76.0, base), faint);
-    let left = PAD + 90.0 + style::text_width(&of, style::WORDS);
-    let cut = style::fitted(cut, style::WORDS, width - PAD - left);
-    canvas.text(&cut, (width - PAD, base), faint.align(Align::Right));
-    canvas.finish()
-}
-
-/// Draws a bar for each exposure, coloured by its role.
-fn bars(canvas: &mut Canvas, cells: &[ShownDrawing<'_>], koma: usize, size: (f64, f64)) {
-    let one = bar_width(size, koma);
-    let (high, up) = BARS;
-    let y = size.1 - up;
-    for cell in cells.iter().take_while(|cell| cell.koma < koma) {
-        let held = cell.held.min(koma - cell.koma);
-        let from: Point = (PAD + one * cell.koma as f64, y);
-        let color = match cell.drawing.role {
-            Role::Inbetween => style::mixed(style::INBETWEEN, style::PAPER, 0.5),
-            role => style::of_role(role),
-        };
-        let gap = if one >= 3.0 { 1.0 } else { 0.0 };
-        canvas.rect(from, (from.0 + one * held as f64 - gap, y + high), color);
-    }
 }

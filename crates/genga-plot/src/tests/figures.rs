@@ -52,7 +52,7 @@ pub(super) fn looped(rounds: usize) -> (Clip, Sheet) {
 }
 
 /// Returns a clip of one point, on a sheet of one koma.
-fn point() -> (Clip, Sheet) {
+pub(super) fn point() -> (Clip, Sheet) {
     let skeleton = Skeleton { joints: vec![joint("root", None, DVec3::ZERO, true)] };
     let clip = Clip::new(skeleton, rate(24.0), Frame(0), 1, vec![1e7, -3.0, 0.5]).unwrap();
     let sheet = Sheet::on_ones(clip.clock(24.0), 1);
@@ -67,7 +67,7 @@ const PAGES: [(&str, Draw); 4] = [
     ("onion", |cut, clip, sheet| OnionSkin::default().draw(cut, clip, sheet)),
     ("strip", |cut, clip, sheet| Strip::default().draw(cut, clip, sheet)),
     ("flip-book", |cut, clip, sheet| {
-        FlipBook::default().draw(cut, clip, sheet).map(|page| vec![page])
+        FlipBook::default().draw(cut, &SideBySide::Source(clip, sheet)).map(|page| vec![page])
     }),
 ];
 
@@ -245,8 +245,9 @@ fn an_edited_sheet_keeps_the_numbers_of_its_drawings() {
     sheet.layers[0].exposures = exposures;
     let cells = shown_drawings(&sheet.layers[0]);
     assert_eq!(numbered(&cells), ["5 Some(3) 0", "1 Some(1) 2", "5 Some(3) 3", "2 None 6"]);
-    let take = take(&FlipBook::default().draw("cut", &clip, &sheet).unwrap());
-    let genga = take["drawings"].as_array().unwrap().iter().map(|drawing| &drawing["genga"]);
+    let take = take(&FlipBook::default().draw("cut", &SideBySide::Source(&clip, &sheet)).unwrap());
+    let drawings = take["sheets"][0]["drawings"].as_array().unwrap();
+    let genga = drawings.iter().map(|drawing| &drawing["genga"]);
     assert_eq!(
         genga.map(Value::as_u64).collect::<Vec<_>>(),
         [Some(1), None, Some(2), None, Some(3)]

@@ -4,6 +4,7 @@ use gif::{ColorOutput, DecodeOptions};
 use resvg::tiny_skia::Pixmap;
 
 use super::figures::{looped, walk};
+use super::versions::{both, on_twos};
 use super::*;
 
 fn images(settings: &NumberedImages, clip: &Clip, sheet: &Sheet) -> Vec<(String, Vec<u8>)> {
@@ -46,7 +47,10 @@ fn images_and_previews_refuse_settings_that_cannot_be() {
         (Preview { most: 0, ..Preview::default() }, "most"),
     ] {
         has_setting_error(settings.validate(), name);
-        has_setting_error(settings.draw("cut", &clip, &sheet, Vec::new()), name);
+        has_setting_error(
+            settings.draw("cut", &SideBySide::Source(&clip, &sheet), Vec::new()),
+            name,
+        );
     }
 }
 
@@ -187,7 +191,7 @@ fn played(bytes: &[u8]) -> Vec<(Vec<u8>, u16)> {
 
 fn preview(settings: &Preview, clip: &Clip, sheet: &Sheet) -> (Vec<u8>, usize) {
     let mut bytes = vec![];
-    let shown = settings.draw("cut", clip, sheet, &mut bytes).unwrap();
+    let shown = settings.draw("cut", &SideBySide::Source(clip, sheet), &mut bytes).unwrap();
     (bytes, shown)
 }
 
@@ -204,15 +208,55 @@ fn a_preview_lasts_as_long_as_the_sheet_and_its_koma_do_not_drift() {
     }
 }
 
+/// Returns the pixels of a part of a picture that is 640 px wide.
+fn part(picture: &[u8], rows: std::ops::Range<usize>, columns: std::ops::Range<usize>) -> Vec<u8> {
+    let row = |row: usize| 4 * (row * 640 + columns.start)..4 * (row * 640 + columns.end);
+    rows.flat_map(|at| picture[row(at)].to_vec()).collect()
+}
+
+/// Returns the pixels of the figure in a half of a picture.
+fn figures(picture: &[u8], half: usize) -> Vec<u8> {
+    part(picture, 50..270, half * 320 + 4..half * 320 + 316)
+}
+
+#[test]
+fn a_preview_of_two_versions_shows_each_held_by_its_own_sheet_and_marks_where_they_differ() {
+    let (clip, sheet) = walk();
+    let twos = on_twos(&clip);
+    let shown = both(&clip, [&sheet, &twos]);
+    let mut pictures: Vec<Vec<u8>> = vec![];
+    let settings = Preview { width: 640, height: 340, ..Preview::default() };
+    let koma = settings.play("cut", &shown, |picture| {
+        pictures.push(picture.to_vec());
+        Ok(())
+    });
+    assert_eq!((koma.unwrap(), pictures.len()), (8, 8));
+    let held = [&sheet, &twos].map(|sheet| sheet.layers[0].koma().collect::<Vec<_>>());
+    for koma in 1..8 {
+        for (half, held) in held.iter().enumerate() {
+            let stays = held[koma] == held[koma - 1];
+            let [before, now] = [koma - 1, koma].map(|koma| figures(&pictures[koma], half));
+            assert_eq!(before == now, stays, "half {half}, koma {}", koma + 1);
+        }
+    }
+    for (koma, differ) in shown.differences().unwrap().into_iter().enumerate() {
+        let sign = part(&pictures[koma], 14..34, 310..330);
+        let is_dark = |pixel: &[u8]| pixel[0] < 100 && pixel[1] < 100;
+        assert_eq!(sign.chunks(4).any(is_dark), differ, "koma {}", koma + 1);
+    }
+    // The numbers: 1 and 2 of the first sheet are an end and an inbetween.
+    let red = |koma: usize, half: usize| {
+        let number = part(&pictures[koma], 8..38, half * 320 + 270..half * 320 + 298);
+        number.chunks(4).filter(|pixel| pixel[0] > 150 && pixel[1] < 120).count()
+    };
+    assert!(red(0, 0) > 10 && red(4, 0) > 10 && red(0, 1) > 10, "keys");
+    assert_eq!((red(1, 0), red(2, 1)), (0, 0), "inbetweens");
+}
+
 #[test]
 fn a_preview_shows_the_result_held_while_the_source_goes_on() {
     let (clip, sheet) = walk();
     let played = played(&preview(&Preview::default(), &clip, &sheet).0);
-    let figures = |picture: &[u8], half: usize| -> Vec<u8> {
-        let rows = (50..270)
-            .map(|row| 4 * (row * 640 + half * 320 + 4)..4 * (row * 640 + half * 320 + 316));
-        rows.flat_map(|row| picture[row].to_vec()).collect()
-    };
     let held = sheet.layers[0].koma().collect::<Vec<_>>();
     for koma in 1..8 {
         let (before, now) = (&played[koma - 1].0, &played[koma].0);

@@ -1,0 +1,82 @@
+//! Sheets that people name: a sheet.json, a results folder with one, or a timesheet of all drawings (XDTS, TDTS).
+
+use std::path::{Path, PathBuf};
+
+use super::console::Words;
+use super::failure::Failure;
+use super::{files, into_args};
+use genga_files::sheet_json::{self, SheetFile};
+use genga_files::xdts;
+
+/// File name of the sheet in a results folder.
+const SHEET: &str = "sheet.json";
+
+/// Returns the file of a sheet: that in a results folder, or the file itself.
+pub(super) fn file_of(path: &Path) -> Result<PathBuf, Failure> {
+    if !path.is_dir() {
+        return Ok(path.to_owned());
+    }
+    let file = path.join(SHEET);
+    if file.is_file() {
+        return Ok(file);
+    }
+    let path = path.display();
+    Err(Failure::AskedWrongly(format!(
+        "{path}: there is no sheet.json in this folder; name a results folder of genga run, or a sheet"
+    )))
+}
+
+/// Reads a sheet. The drawings of a timesheet are those of the sheet.json that is named, or that lies beside it or up
+/// to two folders above; if there is none, the error ends with `way_out`.
+pub(super) fn read(
+    path: &Path,
+    (drawings, way_out): (Option<&Path>, &str),
+    words: &Words,
+) -> Result<SheetFile, Failure> {
+    let (bytes, of_sheet) = (files::read(path)?, files::fault_of(path));
+    if !xdts::is_timesheet(&bytes) {
+        if drawings.is_some() {
+            let message = "--drawings belongs to a timesheet, XDTS or TDTS, and this is none";
+            return Err(Failure::AskedWrongly(message.into()));
+        }
+        return sheet_json::read(&bytes).map_err(of_sheet);
+    }
+    let timesheet = xdts::read_cells(&bytes).map_err(&of_sheet)?;
+    let found = drawings.map(Path::to_owned).or_else(|| own_sheet(path)).ok_or_else(|| {
+        Failure::AskedWrongly(format!(
+            "{}: a timesheet has numbers alone, and no sheet.json is beside it: {way_out}",
+            path.display()
+        ))
+    })?;
+    let file = sheet_json::read(&files::read(&found)?).map_err(files::fault_of(&found))?;
+    words.say(format_args!("drawings    動画       those of {}", found.display()));
+    let unread = into_args::unread(&bytes, path)?;
+    unread.iter().for_each(|said| words.say(format_args!("note        {said}")));
+    let names: Vec<&str> = file.sheet.layers.iter().map(|layer| &*layer.name).collect();
+    let columns = timesheet.columns.iter().map(|column| &*column.name);
+    let others: Vec<&str> = columns.filter(|name| !names.contains(name)).collect();
+    if timesheet.columns.len() > 1 && !others.is_empty() {
+        words.say(format_args!(
+            "note        columns of no layer of the sheet, passed over: {}",
+            others.join(", ")
+        ));
+    }
+    let sheet = xdts::retimed(&timesheet, &file.sheet).map_err(of_sheet)?;
+    Ok(SheetFile { sheet, ..file })
+}
+
+/// Finds the sheet.json that a timesheet was made from: beside it, or up to two folders above, as in a cut folder.
+fn own_sheet(timesheet: &Path) -> Option<PathBuf> {
+    near(timesheet).map(|folder| folder.join(SHEET)).find(|file| file.is_file())
+}
+
+/// The folders that a file belongs to: its own, and two above.
+pub(super) fn near(file: &Path) -> impl Iterator<Item = &Path> {
+    beside(file).ancestors().take(3)
+}
+
+/// The folder that contains a file.
+pub(super) fn beside(file: &Path) -> &Path {
+    let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty());
+    folder.unwrap_or(Path::new("."))
+}
