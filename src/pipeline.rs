@@ -117,6 +117,11 @@ pub struct FoundKeys<'a> {
 }
 
 impl<'a> Breakdown<'a> {
+    /// Replaces the final sheet by one with the same drawings and other numbers.
+    pub fn with_sheet(self, sheet: &'a Sheet) -> Self {
+        Self { sheet, ..self }
+    }
+
     /// Returns the results of each layer of the sheet.
     pub fn layers(&self) -> impl ExactSizeIterator<Item = LayerBreakdown<'a>> + use<'a> {
         let (layers, count) = (self.layers, self.sheet.layers.len());

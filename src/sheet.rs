@@ -4,6 +4,9 @@
 
 mod blank;
 mod camera;
+mod number;
+mod numbers;
+mod renumber;
 mod source_time;
 mod spoken;
 mod why;
@@ -20,6 +23,9 @@ use crate::time::{Clock, FrameRate};
 
 pub use blank::Blank;
 pub use camera::CameraWork;
+pub use number::Number;
+pub use numbers::{Gone, Numbers};
+pub use renumber::Renumbered;
 pub use spoken::SpokenLine;
 pub use why::{Names, Reason, Why};
 
@@ -120,6 +126,9 @@ pub struct Layer {
     pub drawings: Vec<Drawing>,
     /// Exposures in order of time.
     pub exposures: Vec<Exposure>,
+    /// Drawings that earlier sheets of the cut had, whose numbers no other drawing gets.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub gone: Vec<Gone>,
 }
 
 /// A drawing and the number of koma it stays on screen.
@@ -141,6 +150,9 @@ pub struct Drawing {
     pub role: Role,
     /// Why it is on the sheet.
     pub why: Why,
+    /// Its numbers, if they come from an earlier sheet.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub numbers: Numbers,
 }
 
 /// Origin of a drawing's pose.
@@ -158,6 +170,13 @@ pub enum Source {
         /// 0 is `from`, 1 is `to`.
         share: f64,
     },
+}
+
+impl Drawing {
+    /// Creates a drawing whose number is its place in the list.
+    pub fn new(source: Source, role: Role, why: Why) -> Self {
+        Self { source, role, why, numbers: Numbers::default() }
+    }
 }
 
 impl Source {
@@ -260,7 +279,7 @@ impl Layer {
     /// use genga::sheet::{Exposure, Layer};
     ///
     /// let exposures = [3, 1, 2].map(|koma| Exposure { drawing: 0, koma }).to_vec();
-    /// let layer = Layer { name: "A".into(), joints: vec![], drawings: vec![], exposures };
+    /// let layer = Layer { name: "A".into(), joints: vec![], drawings: vec![], exposures, gone: vec![] };
     /// assert!(layer.timed().map(|(begin, _)| begin).eq([0, 3, 4]));
     /// ```
     pub fn timed(&self) -> impl Iterator<Item = (usize, Exposure)> + '_ {
@@ -279,7 +298,7 @@ impl Layer {
     ///
     /// let exposures = [(0, 3), (0, 1), (1, 2), (0, 1)];
     /// let exposures = exposures.map(|(drawing, koma)| Exposure { drawing, koma }).to_vec();
-    /// let layer = Layer { name: "A".into(), joints: vec![], drawings: vec![], exposures };
+    /// let layer = Layer { name: "A".into(), joints: vec![], drawings: vec![], exposures, gone: vec![] };
     /// assert!(layer.changes().eq([(0, 0), (4, 1), (6, 0)]));
     /// ```
     pub fn changes(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
@@ -323,15 +342,6 @@ impl Layer {
     /// inbetweening.
     pub fn genga(&self) -> usize {
         self.shown().filter(|drawing| drawing.role.is_kept()).count()
-    }
-
-    /// Numbers genga and ends as one series from 1; `None` for inbetweens.
-    pub fn genga_numbers(&self) -> Vec<Option<usize>> {
-        let number = |kept: &mut usize, drawing: &Drawing| {
-            *kept += usize::from(drawing.role.is_kept());
-            Some(drawing.role.is_kept().then_some(*kept))
-        };
-        self.drawings.iter().scan(0, number).collect()
     }
 
     /// Number of koma of the longest exposure; 0 for an empty layer.
@@ -432,16 +442,16 @@ impl Sheet {
     /// Creates a sheet of a clip on ones (1コマ打ち): one drawing per koma, without a search for keys. The first and the
     /// last drawing are ends.
     pub fn on_ones(clock: Clock, koma: usize) -> Self {
-        let drawing = |at| Drawing {
-            source: Source::At(clock.place_from_koma(at)),
-            role: if at == 0 || at + 1 == koma { Role::End } else { Role::Inbetween },
-            why: Why::default(),
+        let drawing = |at| {
+            let role = if at == 0 || at + 1 == koma { Role::End } else { Role::Inbetween };
+            Drawing::new(Source::At(clock.place_from_koma(at)), role, Why::default())
         };
         let layer = Layer {
             name: "A".into(),
             joints: vec![],
             drawings: (0..koma).map(drawing).collect(),
             exposures: (0..koma).map(|drawing| Exposure { drawing, koma: 1 }).collect(),
+            gone: vec![],
         };
         Self::new(clock, vec![layer])
     }

@@ -170,7 +170,7 @@ mod tests {
                 _ => None,
             };
             let role = if *kind == 'i' { Role::Inbetween } else { Role::Genga };
-            Drawing { source: Source::At(*place), role, why: Why { reason, ..Why::default() } }
+            Drawing::new(Source::At(*place), role, Why { reason, ..Why::default() })
         };
         let exposure =
             |(drawing, (.., koma)): (usize, &(char, f64, usize))| Exposure { drawing, koma: *koma };
@@ -179,6 +179,7 @@ mod tests {
             joints: vec![],
             drawings: shown.iter().map(drawing).collect(),
             exposures: shown.iter().enumerate().map(exposure).collect(),
+            gone: vec![],
         }
     }
 

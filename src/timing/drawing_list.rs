@@ -164,6 +164,7 @@ impl<'a> Strip<'a> {
             joints: layer.joints.clone(),
             drawings: Vec::with_capacity(self.drawings),
             exposures: Vec::with_capacity(self.drawings),
+            gone: vec![],
         };
         for (link, drawing) in self.links.iter().zip(&layer.drawings) {
             if link.koma > 0 {

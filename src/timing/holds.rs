@@ -203,7 +203,13 @@ impl<'a> Row<'a> {
         let exposures =
             koma.enumerate().map(|(drawing, koma)| Exposure { drawing, koma }).collect();
         let drawings = self.drawings.into_iter().map(|shown| shown.drawing).collect();
-        Layer { name: like.name.clone(), joints: like.joints.clone(), drawings, exposures }
+        Layer {
+            name: like.name.clone(),
+            joints: like.joints.clone(),
+            drawings,
+            exposures,
+            gone: vec![],
+        }
     }
 }
 

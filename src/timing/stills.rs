@@ -213,12 +213,13 @@ mod tests {
     }
 
     fn layer(sources: &[Source]) -> Layer {
-        let drawing = |&source| Drawing { source, role: Role::Inbetween, why: Why::default() };
+        let drawing = |&source| Drawing::new(source, Role::Inbetween, Why::default());
         Layer {
             name: "A".into(),
             joints: vec![],
             drawings: sources.iter().map(drawing).collect(),
             exposures: vec![],
+            gone: vec![],
         }
     }
 

@@ -17,10 +17,11 @@ fn said(place: &Place, args: &str) -> String {
 fn corrections_of_a_folder_add_up_until_a_fresh_run() {
     let place = Place::new();
     place.done("run data/kick.bvh --pin 42:contact --set spacing.on=3 --out a");
-    let second = said(&place, "run data/kick.bvh --forbid 50 --out a");
+    let second = said(&place, "run data/kick.bvh --forbid 50 --renumber --out a");
     let kept = "note        kept from a/recipe.toml (--fresh goes without): pin 42\n";
     assert!(second.contains(kept), "{second}");
-    place.done("run data/kick.bvh --hold 60:6 --out a");
+    place.done("run data/kick.bvh --hold 60:6 --renumber --out a");
+    place.done("run data/kick.bvh --out a");
     // The settings are those of each run; the corrections those of all.
     place.done("run data/kick.bvh --pin 42:contact --forbid 50 --hold 60:6 --out at-once");
     assert_eq!(all(&place.path("a")), all(&place.path("at-once")));
@@ -31,6 +32,7 @@ fn corrections_of_a_folder_add_up_until_a_fresh_run() {
     let part = said(&place, "run data/kick.bvh --trim 0..55 --out a");
     assert!(part.contains("not of this clip any more: hold 60:6\n"), "{part}");
     // A recipe that is named has the corrections that count.
+    place.done("run data/kick.bvh --recipe at-once/recipe.toml --renumber --out a");
     place.done("run data/kick.bvh --recipe at-once/recipe.toml --out a");
     assert_eq!(all(&place.path("a")), all(&place.path("at-once")));
     let fresh = said(&place, "run data/kick.bvh --fresh --out a");

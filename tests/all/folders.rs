@@ -55,7 +55,7 @@ fn what_a_run_does_not_write_again_is_gone() {
     place.done("run data/kick.bvh --deliver xdts,images --out a");
     check_manifest(&place, "a");
     assert!(place.path("a/kick_genga_ts.xdts").is_file() && place.path("a/images").is_dir());
-    let said = said(&place, "run data/kick.bvh --keys 8 --out a");
+    let said = said(&place, "run data/kick.bvh --keys 8 --fresh --out a");
     assert!(said.contains("of an earlier run, removed: "), "{said}");
     assert!(
         ["kick_genga_ts.xdts", "images/A_0001.png"].iter().all(|file| said.contains(file)),
@@ -144,7 +144,7 @@ fn a_painted_picture_stays_unless_it_is_named() {
     let chart = change(&place, "a/sheet.svg");
     let stays = || fs::read(place.path("a/images/A_0003.png")).unwrap() == painted;
     let note = "painted, kept and not written again (--overwrite NAME does): images/A_0003.png";
-    for args in ["--keys 8", "--keys 8 --force", ""] {
+    for args in ["--keys 8 --renumber", "--keys 8 --force", "--renumber"] {
         let said = said(&place, &format!("run data/kick.bvh {images} {args} --out a"));
         assert!(said.contains(note) && stays(), "{args}: {said}");
     }
@@ -271,7 +271,7 @@ fn a_run_that_is_stopped_leaves_the_old_files_or_the_new_and_nothing_else() {
 
     let place = Place::new();
     place.done("run data/kick.bvh --out old");
-    let run = "run data/kick.bvh --deliver images,strip --with images.width=640 --with images.height=360 --keys 8 --out";
+    let run = "run data/kick.bvh --deliver images,strip --with images.width=640 --with images.height=360 --keys 8 --fresh --out";
     place.done(&format!("{run} new"));
     let (times, wait) = if is_full() { (18, 40) } else { (6, 120) };
     let (old, new) = (all(&place.path("old")), all(&place.path("new")));

@@ -32,6 +32,7 @@ mod rests; // rests are holds, and no drawing stays for one koma
 
 mod eval_compare; // sheets judged, and methods side by side
 mod hostile_names; // names that a spreadsheet would run or a terminal obey
+mod kept_numbers; // a new run keeps the numbers of the drawings that it shares with the last
 mod known_keys; // keys of clips made from known keys are found again
 
 mod layers; // layers with their own timing, and a root on ones

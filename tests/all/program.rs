@@ -872,7 +872,7 @@ fn nothing_is_written_over_a_sheet_that_was_edited() {
     let place = Place::new();
     place.done("run data/kick.bvh --out a");
     place.done("run data/kick.bvh --out a --set spacing.on=3");
-    place.done("run data/kick.bvh --out a");
+    place.done("run data/kick.bvh --out a --fresh");
     fs::copy(place.path("a/sheet.json"), place.path("whole.json")).unwrap();
     place.done("run data/kick.bvh --out b");
     let edited = edit(&place.path("a/sheet.json"));
@@ -944,7 +944,7 @@ fn what_is_read_is_not_written_over() {
 fn a_recipe_tuned_in_its_place_loses_neither_comments_nor_corrections() {
     let place = Place::new();
     place.done("run data/kick.bvh --out a --keys 12");
-    let again = "run data/kick.bvh --out a --recipe a/recipe.toml --pin 42:contact";
+    let again = "run data/kick.bvh --out a --fresh --recipe a/recipe.toml --pin 42:contact";
     let said = text(&place.genga(again).stderr);
     assert!(!said.contains("recipe.toml is"), "{said}");
     let tuned = read(&place.path("a/recipe.toml"));

@@ -238,7 +238,7 @@ const PICTURES: [(&str, &str, &str); 9] = [
 fn pictures_of_the_documentation_are_those_that_the_program_draws() {
     let place = place();
     let is_other = |(name, options, file): &(&str, &str, &str)| {
-        said(&format!("genga run data/kick.bvh {options}"), place.path()).unwrap();
+        said(&format!("genga run data/kick.bvh --fresh {options}"), place.path()).unwrap();
         let made = fs::read(place.path().join("kick-genga").join(file)).unwrap();
         made != fs::read(here("docs/pictures").join(format!("{name}.svg"))).unwrap()
     };

@@ -108,11 +108,11 @@ def note(action, start, exposures, frames):
 
 def numbered(exposures, frames):
     """Returns the genga's numbers, as on the sheet, with their frames. A loop has those of its first round."""
-    keys = [(exposure.place, frame) for exposure, frame in zip(exposures, frames) if exposure.is_key]
+    keys = [(exposure, frame) for exposure, frame in zip(exposures, frames) if exposure.is_key]
     numbers = {}
-    for place, _ in keys:
-        numbers.setdefault(place, len(numbers) + 1)
-    return [(str(numbers[place]), frame) for place, frame in keys]
+    for exposure, _ in keys:
+        numbers.setdefault(exposure.place, exposure.number or str(len(numbers) + 1))
+    return [(numbers[exposure.place], frame) for exposure, frame in keys]
 
 
 def play(thing, action, slot):

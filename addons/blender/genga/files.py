@@ -22,6 +22,8 @@ class Exposure:
         # The round of a loop that it is in. The body is a round's way further in each.
         self.round = 0
         self.role = drawing.get("role", "")
+        # Its number as a genga, if that is not its place among them.
+        self.number = str(drawing.get("genga_no", ""))
         why = drawing.get("why", {})
         # A rest, or an inbetween that also replaces others.
         self.is_held = why.get("reason") == "rest" or (self.role == "inbetween" and why.get("held_for", 0) > 0)

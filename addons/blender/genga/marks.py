@@ -2,6 +2,7 @@
 """Marks on the timeline: markers that pin and forbid, keys of type Extreme, selected frames, numbers of the genga."""
 
 import bisect
+import re
 
 import bpy
 import numpy as np
@@ -9,6 +10,9 @@ import numpy as np
 from . import pins, stepping
 from .refused import Refused
 from .take import BEGINS, PLACES, STEPPED
+
+# The number of a genga: 3, or 3a for one that came later.
+NUMBER = re.compile("[0-9]+[a-z]*")
 
 
 def marked(take):
@@ -113,7 +117,7 @@ def set_numbers(scene, thing, numbered):
     own = names(thing)
     for marker in list(scene.timeline_markers):
         number, _, name = marker.name.partition(" ")
-        if number.isdigit() and pins.clean(name) in own:
+        if NUMBER.fullmatch(number) and pins.clean(name) in own:
             scene.timeline_markers.remove(marker)
         elif pins.is_mark(marker.name) and pins.owner(marker.name) in own:
             marker.name = pins.owned(marker.name, thing.name)

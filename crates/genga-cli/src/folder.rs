@@ -96,7 +96,12 @@ impl<'a> Folder<'a> {
 
     /// Whether it holds the results of a run of this clip.
     pub(super) fn has_run_of(&self, clip: &ClipMark) -> bool {
-        self.before.as_ref().is_some_and(|run| run.recipe.is_some() && run.clip.is_of(clip))
+        self.is_of(clip) && self.before.as_ref().is_some_and(|run| run.recipe.is_some())
+    }
+
+    /// Whether it holds results of this clip.
+    pub(super) fn is_of(&self, clip: &ClipMark) -> bool {
+        self.before.as_ref().is_some_and(|before| before.clip.is_of(clip))
     }
 
     /// The folder's path.

@@ -185,7 +185,7 @@ pub(super) fn long_help() -> String {
 const MOST_NAMES: usize = 3;
 
 /// File name of the sheet, which a person may have edited.
-const SHEET: &str = "sheet.json";
+pub(super) const SHEET: &str = "sheet.json";
 
 /// Callback before each file is written. An error stops the writing.
 pub(super) type Tell<'a> = &'a dyn Fn(&str) -> Result<(), Error>;
@@ -307,6 +307,11 @@ impl Formats {
         }
         let sheet = Some(sheet).filter(|_| self.writes("json"));
         paths::spare(&[("sheet", sheet)], &target)
+    }
+
+    /// Encodes a table as the settings of tables say.
+    pub(super) fn table(&self, table: String) -> Vec<u8> {
+        self.settings.csv.encode(table)
     }
 
     /// Whether a format of that name will be written.

@@ -37,6 +37,7 @@ mod freeze_args;
 mod headings;
 mod into_args;
 mod kept;
+mod numbers;
 mod outcomes;
 mod paths;
 mod pin_args;

@@ -4,7 +4,7 @@
 use genga::edits::{Edits, Forbidden, Move, Pin};
 use genga::keys::{Key, Origin};
 use genga::pipeline::{Breakdown, LayerBreakdown};
-use genga::sheet::{Drawing, Layer};
+use genga::sheet::{Drawing, Layer, Number};
 use genga::time::{Clock, Frame};
 use genga::timing::held_for;
 
@@ -76,7 +76,7 @@ impl Outcomes<'_> {
     /// Says what became of the key at a frame that is forbidden.
     fn of_banned(&self, frame: Frame) -> String {
         if self.has(frame) {
-            let number = self.number(frame).unwrap_or_default();
+            let number = self.number(frame).as_ref().map(Number::to_string).unwrap_or_default();
             return format!("genga {number} stays at {frame}, as it is pinned");
         }
         match self.instead_of(frame).and_then(|to| Some((to, self.number(to)?))) {
@@ -94,7 +94,7 @@ impl Outcomes<'_> {
     }
 
     /// The number on the sheet of the genga that shows a frame.
-    fn number(&self, frame: Frame) -> Option<usize> {
+    fn number(&self, frame: Frame) -> Option<Number> {
         let away = |drawing: &Drawing| (drawing.source.place() - frame.0 as f64).abs();
         let numbered = self.sheet.drawings.iter().zip(self.sheet.genga_numbers());
         let kept = numbered.filter_map(|(drawing, number)| Some((away(drawing), number?)));

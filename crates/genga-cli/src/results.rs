@@ -9,7 +9,8 @@ use genga::edits::Edits;
 use genga::error::Warning;
 use genga::pipeline::Breakdown;
 use genga::recipe::Recipe;
-use genga_files::{ClipMark, Manifest, Report, Run};
+use genga::sheet::Renumbered;
+use genga_files::{ClipMark, Manifest, Report, Run, numbers_csv};
 
 /// Files of a run that belong to no output format.
 pub(super) const OWN: [&str; 4] = [Run::SPEEDS, Run::RECIPE, Run::REPORT, Run::MANIFEST];
@@ -22,6 +23,8 @@ pub(super) struct Results<'a> {
     pub(super) breakdown: &'a Breakdown<'a>,
     pub(super) recipe: &'a Recipe,
     pub(super) edits: &'a Edits,
+    /// The numbers of the sheet before and of this one; empty if there is nothing to say.
+    pub(super) renumbered: &'a [Renumbered],
     /// Notes for the user.
     pub(super) notes: Vec<String>,
     /// Whether `--recipe` names the recipe in the folder, which may then be overwritten.
@@ -57,6 +60,10 @@ impl Results<'_> {
         report.losses.extend(losses.iter().chain(&unmade).map(ToString::to_string));
         report.notes.extend(notes.iter().map(ToString::to_string));
         report.notes.extend(self.kept.map(str::to_owned));
+        if !self.renumbered.is_empty() {
+            bundle.add(Run::NUMBERS, formats.table(numbers_csv(self.renumbered)?))?;
+            written.files.push(Run::NUMBERS.to_owned());
+        }
         (self.tell)(Run::SPEEDS)?;
         bundle.add(Run::SPEEDS, run.speeds()?)?;
         let settings = recipe.write(edits);

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use crate::{Cut, Sink};
-use genga::error::Error;
+use genga::error::{Error, Warning};
 use genga::sheet::{Layer, Sheet};
 
 /// Writes one file per column into the folder `ae`.
@@ -21,10 +21,20 @@ pub(super) fn write(sheet: &Sheet, put: &mut Sink<'_>) -> Result<(), Error> {
 }
 
 /// Writes a layer's timing as keyframes of *Time Remap*. They are pasted onto a layer that plays the column's
-/// pictures at the sheet's `koma_rate` (per second), one picture per drawing, with drawing 1 at 0 s. After Effects
+/// pictures at the sheet's `koma_rate` (per second), one picture per drawing by file name, the first at 0 s. After Effects
 /// gives pasted keys linear interpolation; *Toggle Hold Keyframe* turns them into holds.
 pub fn time_remap(layer: &Layer, koma_rate: f64) -> String {
     keyframes(koma_rate, &[Property::time_remap(changes(layer, 0, koma_rate))])
+}
+
+/// Says how to import pictures whose numbers are not 1, 2, 3 ….
+pub(super) fn notes(sheet: &Sheet) -> Vec<Warning> {
+    if sheet.layers.iter().all(Layer::is_plainly_numbered) {
+        return vec![];
+    }
+    let message = "some numbers are missing or have letters: import the pictures into After Effects with \"Force \
+                   alphabetical order\"";
+    vec![Warning::new("W_AE_NUMBERS", message)]
 }
 
 /// A keyed property: its name, its unit and its values by frame.
@@ -63,8 +73,19 @@ fn in_cut(sheet: &Sheet, layer: &Layer) -> String {
 /// The times of the drawings in the column's pictures, in seconds, by the frame on which they come. The layer enters on
 /// frame `begin`.
 fn changes(layer: &Layer, begin: usize, koma_rate: f64) -> Vec<(usize, f64)> {
+    let pictures = pictures(layer);
     let changes = layer.changes();
-    changes.map(|(koma, drawing)| (begin + koma, drawing as f64 / koma_rate)).collect()
+    changes.map(|(koma, drawing)| (begin + koma, pictures[drawing] as f64 / koma_rate)).collect()
+}
+
+/// The place of each drawing's picture among those of its column, from 0, in alphabetical order.
+fn pictures(layer: &Layer) -> Vec<usize> {
+    let numbers = layer.numbers();
+    let mut ordered: Vec<usize> = (0..numbers.len()).collect();
+    ordered.sort_by_key(|drawing| (numbers[*drawing].whole(), numbers[*drawing].letters()));
+    let mut places = vec![0; numbers.len()];
+    ordered.into_iter().enumerate().for_each(|(place, drawing)| places[drawing] = place);
+    places
 }
 
 /// Writes properties as After Effects copies them.

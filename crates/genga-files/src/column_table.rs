@@ -4,7 +4,7 @@ use std::iter::{once, repeat_n};
 
 use crate::CsvText;
 use genga::error::Error;
-use genga::sheet::{Layer, Sheet};
+use genga::sheet::{Layer, Number, Sheet};
 
 /// Marks the first koma of an inbetween in the genga column.
 const INBETWEEN: &str = "○";
@@ -23,11 +23,13 @@ pub fn columns_csv(sheet: &Sheet) -> Result<String, Error> {
     let genga = sheet.layers.iter().map(|layer| {
         let numbers = layer.genga_numbers();
         column(sheet, layer, |drawing| {
-            numbers[drawing].map_or(INBETWEEN.into(), |number| number.to_string())
+            numbers[drawing].as_ref().map_or(INBETWEEN.into(), Number::to_string)
         })
     });
-    let douga = sheet.layers.iter();
-    let douga = douga.map(|layer| column(sheet, layer, |drawing| (drawing + 1).to_string()));
+    let douga = sheet.layers.iter().map(|layer| {
+        let numbers = layer.numbers();
+        column(sheet, layer, |drawing| numbers[drawing].to_string())
+    });
     let columns: Vec<Vec<String>> = genga.chain(douga).collect();
     let group = |name| {
         let others = sheet.layers.len().saturating_sub(1);

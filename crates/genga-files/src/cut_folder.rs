@@ -5,6 +5,7 @@ use serde::Serialize;
 use super::xdts::column;
 use super::{Cut, Settings, Sink, xsheet};
 use genga::error::Error;
+use genga::sheet::{Layer, Number};
 use genga_plot::NumberedImages;
 
 /// The version of `cut.json`, stored in the file.
@@ -35,8 +36,8 @@ struct Column<'a> {
     /// Names of its joints; empty for the whole body.
     joints: &'a [String],
     /// Numbers of its pictures.
-    genga: Vec<usize>,
-    douga: Vec<usize>,
+    genga: Vec<Number>,
+    douga: Vec<Number>,
 }
 
 /// Writes the cut's folder, named after the cut.
@@ -58,19 +59,21 @@ pub(super) fn write(cut: &Cut<'_>, settings: &Settings, put: &mut Sink<'_>) -> R
     let paper = xsheet(&settings.xsheet, cut.name, cut.clip, cut.sheet)?;
     put(&at("CUT_timesheet.html"), paper.html.as_bytes())?;
     let mut columns = columns(cut);
+    let genga: Vec<_> = cut.sheet.layers.iter().map(Layer::genga_numbers).collect();
+    let douga: Vec<_> = cut.sheet.layers.iter().map(Layer::numbers).collect();
     // Columns are stacked on each other, so their pictures need a transparent background.
     let transparent = settings.images.transparent || cut.sheet.layers.len() > 1;
     let body = settings.figures.body;
     let images = NumberedImages { transparent, body, ..settings.images.clone() };
     images.draw_columns(cut.clip, cut.sheet, |layer, drawing, png| {
-        let number = cut.sheet.layers[layer].genga_numbers()[drawing];
         let column = &mut columns[layer];
-        if let Some(number) = number {
-            column.genga.push(number);
+        if let Some(number) = &genga[layer][drawing] {
             put(&at(&picture(GENGA, &column.folder, number)), &png)?;
+            column.genga.push(number.clone());
         }
-        column.douga.push(drawing + 1);
-        put(&at(&picture(DOUGA, &column.folder, drawing + 1)), &png)
+        let number = &douga[layer][drawing];
+        column.douga.push(number.clone());
+        put(&at(&picture(DOUGA, &column.folder, number)), &png)
     })?;
     let (koma, fps) = (cut.sheet.cut_length(), cut.sheet.clock.koma_rate);
     let genga = env!("CARGO_PKG_VERSION");
@@ -86,7 +89,7 @@ pub(super) fn write(cut: &Cut<'_>, settings: &Settings, put: &mut Sink<'_>) -> R
 /// The columns, with no pictures listed yet.
 fn columns<'a>(cut: &Cut<'a>) -> Vec<Column<'a>> {
     let layers = cut.sheet.layers.iter().enumerate();
-    let column = |(track, layer): (usize, &'a genga::sheet::Layer)| {
+    let column = |(track, layer): (usize, &'a Layer)| {
         let name = column(track, &layer.name);
         let folder = Cut::file_of(&name, "CUT");
         Column { name, folder, joints: &layer.joints, genga: vec![], douga: vec![] }
@@ -95,7 +98,7 @@ fn columns<'a>(cut: &Cut<'a>) -> Vec<Column<'a>> {
 }
 
 /// The path of a picture, where drawing programs look for it beside a sheet.
-fn picture(kind: &str, folder: &str, number: usize) -> String {
+fn picture(kind: &str, folder: &str, number: &Number) -> String {
     format!("{kind}/{folder}/{folder}_{number:04}.png")
 }
 

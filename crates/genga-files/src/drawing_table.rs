@@ -3,7 +3,7 @@
 use crate::{csv_table, number};
 use genga::error::Error;
 use genga::motion::{Clip, JointId, played_out};
-use genga::sheet::{Drawing, Layer, Reason, Sheet};
+use genga::sheet::{Drawing, Layer, Number, Reason, Sheet};
 use genga::timing::{Gauge, fraction};
 
 /// Number of koma above which an exposure is marked as a hold (止メ).
@@ -48,7 +48,8 @@ const HEADER: [&str; 17] = [
 ];
 
 impl Drawings {
-    /// Writes the table as CSV. Drawings, genga and koma count from 1, source frames from 0 as in the file.
+    /// Writes the table as CSV, with the numbers of drawings and genga as on paper. Koma count from 1, source frames
+    /// from 0 as in the file.
     ///
     /// `on` is 1, 2 or 3 for ones, twos and threes and empty for a longer hold. `spacing_pos` is the share of
     /// the way from the previous kept drawing to the next one, 0 at the first. It is measured along the path
@@ -63,7 +64,7 @@ impl Drawings {
         let (played_clip, played) = played_out(clip, sheet);
         for (layer, played) in sheet.layers.iter().zip(&played.layers) {
             let gauge = gauge(&played_clip, played);
-            let genga = layer.genga_numbers();
+            let (numbers, genga) = (layer.numbers(), layer.genga_numbers());
             for ((begin, exposure), gauge) in layer.timed().zip(gauge) {
                 let begin = sheet.blank.before + begin;
                 let drawing = &layer.drawings[exposure.drawing];
@@ -71,11 +72,11 @@ impl Drawings {
                     continue;
                 }
                 let place = drawing.source.place();
-                let genga_number = genga[exposure.drawing].map(|number| number.to_string());
+                let genga_number = genga[exposure.drawing].as_ref().map(Number::to_string);
                 rows.push([
                     self.cut.clone(),
                     layer.name.clone(),
-                    (exposure.drawing + 1).to_string(),
+                    numbers[exposure.drawing].to_string(),
                     drawing.role.word().into(),
                     genga_number.unwrap_or_default(),
                     drawing.why.reason.map_or("", Reason::word).into(),

@@ -5,7 +5,7 @@ use genga::error::Error;
 use genga::sheet::Sheet;
 
 /// Writes `koma,layer,drawing,role,source_frame,why`, one row per koma and layer; a koma without a row
-/// is blank. Koma and drawings count from 1,
+/// is blank. Drawings have their numbers on paper; koma count from 1,
 /// `source_frame` from 0 as in the file. It is fractional if the pose was sampled between frames.
 ///
 /// # Errors
@@ -13,12 +13,13 @@ use genga::sheet::Sheet;
 pub fn sheet_csv(sheet: &Sheet) -> Result<String, Error> {
     sheet.check()?;
     let rows = sheet.layers.iter().flat_map(|layer| {
-        layer.koma().enumerate().map(|(koma, index)| {
+        let numbers = layer.numbers();
+        layer.koma().enumerate().map(move |(koma, index)| {
             let drawing = &layer.drawings[index];
             [
                 (sheet.blank.before + koma + 1).to_string(),
                 layer.name.clone(),
-                (index + 1).to_string(),
+                numbers[index].to_string(),
                 drawing.role.word().into(),
                 number(drawing.source.place()),
                 drawing.why.to_string(),

@@ -9,7 +9,7 @@ use crate::films::{Film, shortened};
 use crate::settings::Settings;
 use crate::{
     Cut, Drawings, Rows, Sink, after_effects, columns_csv, figures, films, keys_bvh, limited_bvh,
-    pictures, remap_csv, sheet_csv, sheet_json, sts, vrma, xsheet,
+    pictures, remap_csv, sheet_csv, sheet_json, sts, vrma, xdts, xsheet,
 };
 use genga::error::{Error, Warning};
 use genga::sheet::{Layer, Sheet};
@@ -128,6 +128,7 @@ pub const FORMATS: &[Format] = &[
             put(&cut.file("CUT_genga_ts.xdts"), made.genga.as_bytes())?;
             put(&cut.file("CUT_douga_ts.xdts"), made.douga.as_bytes())
         },
+        notes: |cut, _| Ok(xdts::notes(cut.sheet)),
         ..PLAIN
     },
     Format {
@@ -148,6 +149,7 @@ pub const FORMATS: &[Format] = &[
         goes_to: "drawing programs",
         files: &["CUT.sts"],
         make: |cut, _, put| put(&cut.file("CUT.sts"), &sts(cut.sheet)?),
+        notes: |cut, _| Ok(sts::notes(cut.sheet)),
         ..PLAIN
     },
     Format {
@@ -169,6 +171,7 @@ pub const FORMATS: &[Format] = &[
         goes_to: "After Effects, paper",
         files: &["ae/A.txt"],
         make: |cut, _, put| after_effects::write(cut.sheet, put),
+        notes: |cut, _| Ok(after_effects::notes(cut.sheet)),
         ..PLAIN
     },
     Format {
@@ -368,6 +371,7 @@ pub const FORMATS: &[Format] = &[
         files: &["CUT/CUT_genga_ts.xdts", "CUT/douga/A/A_0001.png"],
         is_numbered: true,
         make: cut_folder::write,
+        notes: |cut, _| Ok(xdts::notes(cut.sheet)),
         ..PLAIN
     },
 ];

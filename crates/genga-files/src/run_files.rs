@@ -29,6 +29,9 @@ impl Run<'_> {
     pub const FORMATS: [&'static str; 6] = ["json", "csv", "remap", "bvh", "bars", "poses"];
     /// The file with settings and corrections.
     pub const RECIPE: &'static str = "recipe.toml";
+    /// The table of numbers that come from the run before, if there is anything to say: see
+    /// [`numbers_csv`](super::numbers_csv).
+    pub const NUMBERS: &'static str = "numbers.csv";
     /// The picture of [`Run::speeds`].
     pub const SPEEDS: &'static str = "speed.svg";
     /// The file of its [`Report`](super::Report).
@@ -61,12 +64,15 @@ impl Run<'_> {
         let names: Vec<&str> =
             clip.skeleton().joints.iter().map(|joint| joint.name.as_str()).collect();
         // Take the sheet's kept drawings, so that the numbers match those of the key table.
-        let kept = sheet.layers[0].drawings.iter().filter(|drawing| drawing.role.is_kept());
+        let layer = &sheet.layers[0];
+        let kept = layer.drawings.iter().filter(|drawing| drawing.role.is_kept());
+        let numbers = layer.genga_numbers().into_iter().flatten().collect();
         let keys: Vec<Frame> =
             kept.map(|drawing| Frame(drawing.source.place().round() as usize)).collect();
         let order = filtered.movers_first(clip.skeleton());
         let splits = actions.splits().iter().map(|split| split.frame).collect();
-        let plot = SpeedPlot { clip: self.name.to_owned(), splits, ..SpeedPlot::default() };
+        let clip = self.name.to_owned();
+        let plot = SpeedPlot { clip, splits, numbers, ..SpeedPlot::default() };
         plot.draw(&names, speed, filtered, turns, &keys, &order)
     }
 }

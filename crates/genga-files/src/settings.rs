@@ -64,7 +64,7 @@ knobs!(csv::CsvSettings {
 
 impl CsvSettings {
     /// Encodes a table as bytes.
-    pub(crate) fn encode(&self, table: String) -> Vec<u8> {
+    pub fn encode(&self, table: String) -> Vec<u8> {
         if self.bom { ["\u{feff}", &table].concat().into_bytes() } else { table.into_bytes() }
     }
 }

@@ -1,6 +1,7 @@
 //! Snapshots of every deliverable of a small clip: read them as an animator would.
 
 mod edited_sheets;
+mod kept_numbers;
 mod numbers;
 mod timesheets;
 mod wrong;

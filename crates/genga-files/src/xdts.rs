@@ -23,8 +23,8 @@ pub use read::{Change, Column, Exchange, Mark, read, read_cells};
 pub use retimed::retimed;
 pub use tdts::Tdts;
 pub use unread::unread;
-pub(super) use write::name as column;
 pub use write::{Xdts, XdtsPair};
+pub(super) use write::{name as column, notes};
 
 /// Whether a file begins like an XDTS or a TDTS file.
 pub fn is_timesheet(bytes: &[u8]) -> bool {

@@ -171,15 +171,10 @@ impl<'a> Card<'a> {
         Self { cell, head, facts: format!("frame {place}{held}") }
     }
 
-    /// Returns half the width of the sign of its genga, in px.
-    fn reach(&self) -> f64 {
-        self.cell.genga.map_or(style::BADGE, style::badge_reach)
-    }
-
     /// Returns the width that its words need, in px.
     fn width(&self) -> f64 {
         let small = |words: &String| style::text_width(words, style::SMALL);
-        let head = 2.0 * self.reach() + self.head.iter().map(small).sum::<f64>() + 36.0;
+        let head = 2.0 * self.cell.reach() + self.head.iter().map(small).sum::<f64>() + 36.0;
         let reasons = self.cell.reasons();
         let below = reasons.iter().chain([&self.facts]).map(small).fold(0.0, f64::max) + 16.0;
         head.max(below)
@@ -212,10 +207,10 @@ impl Table {
         let (middle, right) = (x + 0.5 * width, x + width - 10.0);
         canvas.frame((x, y), self.card, style::GRID, 6.0);
         let color = style::of_role(cell.drawing.role);
-        let reach = card.reach();
+        let reach = cell.reach();
         let sign = (x + 8.0 + reach, y + 18.0);
-        match cell.genga {
-            Some(genga) => canvas.badge(sign, genga, color, cell.is_pinned()),
+        match cell.genga_number() {
+            Some(genga) => canvas.badge(sign, &genga, color, cell.is_pinned()),
             None => canvas.disc(sign, 3.0, color),
         }
         let faint = Type::new(style::SMALL).color(style::FAINT);

@@ -8,7 +8,7 @@ use crate::points::Showing;
 use crate::style;
 use genga::error::Error;
 use genga::motion::{Clip, Composite, Point};
-use genga::sheet::{Drawing, Exposure, Layer, Reason, Sheet};
+use genga::sheet::{Drawing, Exposure, Layer, Number, Reason, Sheet};
 
 /// A drawing on screen.
 #[derive(Debug, Clone, Copy)]
@@ -17,19 +17,30 @@ pub struct ShownDrawing<'a> {
     pub drawing: &'a Drawing,
     /// Index in the layer.
     pub index: usize,
-    /// Number among the kept drawings, from 1, as in the key table; `None` for an inbetween.
+    /// Place among the kept drawings, from 1; `None` for an inbetween.
     pub genga: Option<usize>,
     /// Koma on which it begins, from 0.
     pub koma: usize,
     /// Number of koma on screen.
     pub held: usize,
-    number: usize,
+    /// Place among all drawings, from 1.
+    place: usize,
 }
 
 impl ShownDrawing<'_> {
-    /// Returns the number in the CELL column, from 1.
-    pub fn number(&self) -> usize {
-        self.number
+    /// Returns the number in the CELL column.
+    pub fn number(&self) -> Number {
+        self.drawing.number(self.place)
+    }
+
+    /// Returns the number in the ACTION column; `None` for an inbetween.
+    pub fn genga_number(&self) -> Option<Number> {
+        self.genga.map(|place| self.drawing.genga_number(place))
+    }
+
+    /// Returns half the width of the sign of its genga, in px.
+    pub(super) fn reach(&self) -> f64 {
+        self.genga_number().map_or(style::BADGE, |number| style::badge_reach(&number))
     }
 
     /// Whether a person pinned it.
@@ -73,23 +84,23 @@ impl ShownDrawing<'_> {
 
 /// Returns the exposures of a layer, labelled.
 pub fn shown_drawings(layer: &Layer) -> Vec<ShownDrawing<'_>> {
-    let numbers = layer.genga_numbers();
+    let genga = layer.genga_places();
     let cell = |(koma, exposure): (usize, Exposure)| {
         let index = exposure.drawing;
         let drawing = &layer.drawings[index];
-        let (genga, held, number) = (numbers[index], exposure.koma, index + 1);
-        ShownDrawing { drawing, index, genga, koma, held, number }
+        let (genga, held, place) = (genga[index], exposure.koma, index + 1);
+        ShownDrawing { drawing, index, genga, koma, held, place }
     };
     layer.timed().map(cell).collect()
 }
 
 /// Lists the drawings of a loop that is played out, under the numbers that its sheet gives them.
 pub(super) fn shown_as<'a>(layer: &'a Layer, named: &Layer) -> Vec<ShownDrawing<'a>> {
-    let (on_screen, genga) = (named.koma().collect::<Vec<_>>(), named.genga_numbers());
+    let (on_screen, genga) = (named.koma().collect::<Vec<_>>(), named.genga_places());
     let mut cells = shown_drawings(layer);
     for cell in &mut cells {
         let index = on_screen[cell.koma];
-        (cell.number, cell.genga) = (index + 1, genga[index]);
+        (cell.place, cell.genga) = (index + 1, genga[index]);
     }
     cells
 }
@@ -138,7 +149,7 @@ pub(super) fn beginning(layer: &Layer, most: usize) -> Cow<'_, Layer> {
     let drawings = exposures.iter().map(|exposure| exposure.drawing + 1).max().unwrap_or(0);
     let drawings = layer.drawings[..drawings].to_vec();
     let (name, joints) = (layer.name.clone(), layer.joints.clone());
-    Cow::Owned(Layer { name, joints, drawings, exposures })
+    Cow::Owned(Layer { name, joints, drawings, exposures, gone: vec![] })
 }
 
 /// Returns the points of the first drawings of a composite, each on its first koma on screen.

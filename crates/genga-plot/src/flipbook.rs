@@ -14,7 +14,7 @@ use crate::side_by_side::{PlayedOut, Reel, SideBySide, longest, runs};
 use genga::error::Error;
 use genga::knob::{Knobs, knobs};
 use genga::motion::Camera;
-use genga::sheet::{Layer, Source};
+use genga::sheet::{Layer, Number, Source};
 
 /// A flip-book (パラパラ): what stands side by side as one self-contained HTML file. It plays, steps by koma and by
 /// drawing, and turns to every side. In the rounds of a loop (リピート) the body travels on.
@@ -90,10 +90,10 @@ struct PageSheet<'a> {
 
 #[derive(Serialize)]
 struct PageDrawing {
-    /// Number in the CELL column, from 1.
-    number: usize,
+    /// Number in the CELL column, 3 or "3a".
+    number: Number,
     role: &'static str,
-    genga: Option<usize>,
+    genga: Option<Number>,
     /// Place in the source, to a tenth of a frame.
     frame: f64,
     pinned: bool,
@@ -192,8 +192,8 @@ impl<'a> PageSheet<'a> {
         let sliding = sliding_poses(composite, marks, layer.length());
         let cells = shown_as(layer, reel.named);
         // A drawing that is never shown keeps its own numbers.
-        let mut numbers: Vec<_> = (1..).zip(layer.genga_numbers()).collect();
-        cells.iter().for_each(|cell| numbers[cell.index] = (cell.number(), cell.genga));
+        let mut numbers: Vec<_> = layer.numbers().into_iter().zip(layer.genga_numbers()).collect();
+        cells.iter().for_each(|cell| numbers[cell.index] = (cell.number(), cell.genga_number()));
         let before = reel.sheet.blank.before;
         let drawings = layer.drawings.iter().zip(&poses).zip(numbers);
         Self {

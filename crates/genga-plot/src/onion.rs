@@ -139,7 +139,7 @@ impl<'a> Panel<'a> {
     }
 
     fn width(&self, scale: f64) -> f64 {
-        let signs: f64 = self.ends().iter().map(|cell| 2.0 * reach(cell) + SIGN).sum();
+        let signs: f64 = self.ends().iter().map(|cell| 2.0 * cell.reach() + SIGN).sum();
         let words = signs + style::text_width(&self.koma(), style::SMALL) + 24.0;
         (self.bounds.width() * scale + 2.0 * PAD).max(words).max(LEAST)
     }
@@ -172,11 +172,6 @@ fn rows<'a, 'b>(panels: &'b [Panel<'a>], scale: f64, room: f64) -> Vec<&'b [Pane
     }
     rows.push(&panels[begin..]);
     rows
-}
-
-/// Returns half the width of the sign of a genga, in px.
-fn reach(cell: &ShownDrawing<'_>) -> f64 {
-    cell.genga.map_or(style::BADGE, style::badge_reach)
 }
 
 /// Data that the panels of a page share.
@@ -256,12 +251,12 @@ fn words(canvas: &mut Canvas, panel: &Panel<'_>, (x, y): Point, (wide, high): (f
         if place > 0 {
             canvas.line((left - 9.0, y + 19.0), (left - 2.0, y + 19.0), style::FAINT, 1.25);
         }
-        let (at, color) = ((left + reach(cell), y + 19.0), style::of_role(cell.drawing.role));
-        match cell.genga {
-            Some(genga) => canvas.badge(at, genga, color, cell.is_pinned()),
+        let (at, color) = ((left + cell.reach(), y + 19.0), style::of_role(cell.drawing.role));
+        match cell.genga_number() {
+            Some(genga) => canvas.badge(at, &genga, color, cell.is_pinned()),
             None => canvas.disc(at, 3.0, color),
         }
-        left += 2.0 * reach(cell) + SIGN;
+        left += 2.0 * cell.reach() + SIGN;
     }
     let look = Type::new(style::SMALL).color(style::FAINT).align(Align::Right);
     canvas.text(&panel.koma(), (x + wide - 10.0, y + 23.0), look);

@@ -1,6 +1,7 @@
 //! Draws figures straight onto pixels, for pictures made by the hundred: none of them needs an SVG.
 
 mod digits;
+mod letters;
 
 use plotters::style::RGBColor;
 use tiny_skia::{

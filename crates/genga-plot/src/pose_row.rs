@@ -15,7 +15,7 @@ use crate::style;
 use crate::title::{self, Title};
 use genga::error::Error;
 use genga::motion::{Camera, Clip, first_round};
-use genga::sheet::{Role, Sheet, Source};
+use genga::sheet::{Number, Role, Sheet, Source};
 
 /// Figures of some drawings, side by side, on one floor and of one scale.
 ///
@@ -64,7 +64,7 @@ const NARROWEST: f64 = 380.0;
 /// The words below a figure.
 struct Label {
     /// Number of the genga in a circle, and whether a person pinned it.
-    number: Option<(usize, bool)>,
+    number: Option<(Number, bool)>,
     words: String,
     frame: String,
     role: Role,
@@ -85,8 +85,8 @@ impl Label {
     /// Draws the words in their role's colour below a point on the floor, and the frame below them.
     fn draw(&self, canvas: &mut Canvas, (x, floor): Point, width: f64) {
         let color = style::of_role(self.role);
-        let below = if let Some((number, is_pinned)) = self.number {
-            canvas.badge((x, floor + 16.0), number, color, is_pinned);
+        let below = if let Some((number, is_pinned)) = &self.number {
+            canvas.badge((x, floor + 16.0), number, color, *is_pinned);
             floor + NUMBER
         } else {
             floor
@@ -161,7 +161,7 @@ impl PoseRow {
         kept.retain(|cell| cell.genga.is_some());
         let label = |cell: &ShownDrawing<'_>| {
             let (place, words) = (cell.drawing.source.place(), format!("koma {}", cell.koma + 1));
-            let number = cell.genga.map(|number| (number, cell.is_pinned()));
+            let number = cell.genga_number().map(|number| (number, cell.is_pinned()));
             Label { number, ..Label::new(place, words, cell.drawing.role) }
         };
         let figure = Figure::new(clip, self.body);

@@ -13,6 +13,7 @@ use crate::style;
 use crate::title::Title;
 use genga::error::Error;
 use genga::motion::JointId;
+use genga::sheet::Number;
 use genga::signal::{Signals, Turn};
 use genga::time::Frame;
 
@@ -34,6 +35,8 @@ pub struct SpeedPlot {
     pub curves: SpeedCurves,
     /// Source frames on which actions (動作) begin, shown as dashed lines; default none.
     pub splits: Vec<Frame>,
+    /// Numbers of the layer's keys; default none: 1, 2, 3 ….
+    pub numbers: Vec<Number>,
 }
 
 impl Default for SpeedPlot {
@@ -45,6 +48,7 @@ impl Default for SpeedPlot {
             joints: 4,
             curves: SpeedCurves::Both,
             splits: Vec::new(),
+            numbers: Vec::new(),
         }
     }
 }
@@ -108,7 +112,8 @@ impl SpeedPlot {
             px.filter(|x| (LEFT..=right).contains(x)).collect()
         };
         let (keys, splits) = (px(keys), px(&self.splits));
-        let marks = keys.iter().enumerate().map(|(at, x)| (*x, style::badge_reach(at + 1) + 0.5));
+        let reach = |at: usize| style::badge_reach(&self.number(at)) + 0.5;
+        let marks = keys.iter().enumerate().map(|(at, x)| (*x, reach(at)));
         let lanes = style::lanes(marks, LANES);
         let used = lanes.iter().flatten().max().map_or(0.0, |lane| *lane as f64 + 1.0);
         let shared = Shared { time, right, keys, splits, speed, filtered, curves: self.curves };
@@ -138,8 +143,24 @@ impl SpeedPlot {
         }
         let fps = speed.rate.fps();
         seconds(&mut canvas, (first / fps, last / fps), (right, bottom))?;
-        numbers(&mut canvas, &shared.keys, &lanes, top);
+        self.write_numbers(&mut canvas, &shared.keys, &lanes, top);
         Ok(canvas.finish())
+    }
+
+    /// Draws the numbers of the layer's keys above the panels. Numbers without a free lane are left out.
+    fn write_numbers(&self, canvas: &mut Canvas, keys: &[f64], lanes: &[Option<usize>], top: f64) {
+        for (at, (&x, lane)) in keys.iter().zip(lanes).enumerate() {
+            let Some(lane) = *lane else { continue };
+            let y = top - style::BADGE - 3.0 - 2.0 * style::BADGE * lane as f64;
+            // The first panel's name is left free.
+            canvas.line((x, y + style::BADGE), (x, top + 2.0), style::GENGA_LINE, 1.0);
+            canvas.badge((x, y), &self.number(at), style::GENGA, false);
+        }
+    }
+
+    /// Returns the number of a key of the layer.
+    fn number(&self, at: usize) -> Number {
+        self.numbers.get(at).cloned().unwrap_or_else(|| (at + 1).into())
     }
 }
 
@@ -188,15 +209,4 @@ fn seconds(
     canvas.text("frame", (LEFT - 18.0, bottom + 17.0), look);
     canvas.text("s 秒", (LEFT - 18.0, bottom + 43.0), look);
     Ok(())
-}
-
-/// Draws the numbers of the layer's keys above the panels. Numbers without a free lane are left out.
-fn numbers(canvas: &mut Canvas, keys: &[f64], lanes: &[Option<usize>], top: f64) {
-    for (at, (&x, lane)) in keys.iter().zip(lanes).enumerate() {
-        let Some(lane) = *lane else { continue };
-        let y = top - style::BADGE - 3.0 - 2.0 * style::BADGE * lane as f64;
-        // The first panel's name is left free.
-        canvas.line((x, y + style::BADGE), (x, top + 2.0), style::GENGA_LINE, 1.0);
-        canvas.badge((x, y), at + 1, style::GENGA, false);
-    }
 }

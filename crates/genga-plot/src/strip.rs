@@ -280,13 +280,12 @@ impl Lines<'_> {
         }
         let label = (self.x(koma.start) + 0.5 * self.column, floor + 15.0);
         if koma.start == cell.koma {
-            match cell.genga {
-                Some(genga) => canvas.badge(label, genga, color, cell.is_pinned()),
+            match cell.genga_number() {
+                Some(genga) => canvas.badge(label, &genga, color, cell.is_pinned()),
                 None => canvas.disc(label, 3.0, color),
             }
             let look = Type::new(style::SMALL).color(style::FAINT);
-            let reach = cell.genga.map_or(style::BADGE, style::badge_reach);
-            let beside = (label.0 + reach + 4.0, label.1 + 4.0);
+            let beside = (label.0 + cell.reach() + 4.0, label.1 + 4.0);
             canvas.text(&cell.number().to_string(), beside, look);
             self.gap(canvas, cell, floor);
         }

@@ -293,7 +293,7 @@ fn the_same_input_gives_the_same_bytes() {
 // Sheet.
 
 fn drawing(place: f64, role: Role) -> Drawing {
-    Drawing { source: Source::At(place), role, why: Why::default() }
+    Drawing::new(Source::At(place), role, Why::default())
 }
 
 /// Returns a sheet of end, inbetween, genga, inbetween, end on 1, 2, 3, 1 and 1 koma.
@@ -306,6 +306,7 @@ fn sheet() -> Sheet {
         joints: vec![],
         drawings: drawings.collect(),
         exposures: koma.map(|(drawing, koma)| Exposure { drawing, koma }).collect(),
+        gone: vec![],
     };
     let clock = Clock { first: Frame(0), frame_rate: rate(120.0), koma_rate: 24.0 };
     Sheet::new(clock, vec![layer])

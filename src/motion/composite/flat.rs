@@ -18,6 +18,7 @@ pub(super) fn flattened(layers: &[&Layer]) -> (Layer, Vec<Vec<Source>>) {
         joints: Vec::new(),
         drawings: Vec::with_capacity(begins.len()),
         exposures: Vec::with_capacity(begins.len()),
+        gone: vec![],
     };
     let mut sources = Vec::with_capacity(begins.len());
     for (&begin, end) in begins.iter().zip(ends) {
@@ -31,7 +32,7 @@ pub(super) fn flattened(layers: &[&Layer]) -> (Layer, Vec<Vec<Source>>) {
         // `min_by_key` returns the first of equal ranks.
         let lead = new.min_by_key(|drawing| rank(drawing.role)).expect("some layer begins here");
         flat.exposures.push(Exposure { drawing: flat.drawings.len(), koma: end - begin });
-        flat.drawings.push(Drawing { why: of_all(&lead.why), ..*lead });
+        flat.drawings.push(Drawing::new(lead.source, lead.role, of_all(&lead.why)));
     }
     (flat, sources)
 }

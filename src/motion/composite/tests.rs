@@ -14,10 +14,9 @@ fn kick() -> Clip {
 
 /// Creates a layer that shows some places, each with a role and a number of koma.
 fn layer(name: &str, joints: &[&str], shown: &[(f64, Role, usize)]) -> Layer {
-    let drawing = |(place, role, _): &(f64, Role, usize)| Drawing {
-        source: Source::At(*place),
-        role: *role,
-        why: Why { omitted_before: 1, lengthened: 2, held_for: 3, ..Why::default() },
+    let drawing = |(place, role, _): &(f64, Role, usize)| {
+        let why = Why { omitted_before: 1, lengthened: 2, held_for: 3, ..Why::default() };
+        Drawing::new(Source::At(*place), *role, why)
     };
     let exposure =
         |(drawing, (_, _, koma)): (usize, &(f64, Role, usize))| Exposure { drawing, koma: *koma };
@@ -26,6 +25,7 @@ fn layer(name: &str, joints: &[&str], shown: &[(f64, Role, usize)]) -> Layer {
         joints: joints.iter().map(|joint| (*joint).into()).collect(),
         drawings: shown.iter().map(drawing).collect(),
         exposures: shown.iter().enumerate().map(exposure).collect(),
+        gone: vec![],
     }
 }
 

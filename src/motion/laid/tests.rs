@@ -28,11 +28,7 @@ fn rounds_follow_each_other_with_one_frame_at_a_seam_and_travel_on() {
 
 /// A sheet of some places, each for two koma, that repeats after a round.
 fn sheet(clip: &Clip, places: &[f64], times: usize) -> Sheet {
-    let drawing = |place: &f64| Drawing {
-        source: Source::At(*place),
-        role: Role::Genga,
-        why: Why::default(),
-    };
+    let drawing = |place: &f64| Drawing::new(Source::At(*place), Role::Genga, Why::default());
     let exposures: Vec<_> =
         (0..places.len()).map(|drawing| Exposure { drawing, koma: 2 }).collect();
     let layer = Layer {
@@ -40,6 +36,7 @@ fn sheet(clip: &Clip, places: &[f64], times: usize) -> Sheet {
         joints: vec![],
         drawings: places.iter().map(drawing).collect(),
         exposures: exposures.repeat(times),
+        gone: vec![],
     };
     let repeat = Some(Repeat { frames: ROUND, koma: 26 });
     Sheet { repeat, ..Sheet::new(clip.clock(24.0), vec![layer]) }

@@ -11,20 +11,20 @@ fn clock() -> Clock {
 
 /// Builds a layer on twos with genga at some drawings.
 fn spaced(drawings: usize, genga: &[usize]) -> Layer {
-    let drawing = |at: usize| Drawing {
-        source: Source::At(8.0 * at as f64),
-        role: match at {
+    let drawing = |at: usize| {
+        let role = match at {
             at if at == 0 || at + 1 == drawings => Role::End,
             at if genga.contains(&at) => Role::Genga,
             _ => Role::Inbetween,
-        },
-        why: Why::default(),
+        };
+        Drawing::new(Source::At(8.0 * at as f64), role, Why::default())
     };
     Layer {
         name: "A".into(),
         joints: vec![],
         drawings: (0..drawings).map(drawing).collect(),
         exposures: (0..drawings).map(|drawing| Exposure { drawing, koma: 2 }).collect(),
+        gone: vec![],
     }
 }
 

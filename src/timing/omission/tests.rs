@@ -18,13 +18,14 @@ type Plan = ((i32, i32), usize, Role);
 /// place is a fill.
 fn laid_out(plan: &[Plan]) -> (Layer, Stills) {
     let mut stills = Stills::new(2);
-    let mut layer = Layer { name: "A".into(), joints: vec![], drawings: vec![], exposures: vec![] };
+    let (drawings, exposures, gone) = (vec![], vec![], vec![]);
+    let mut layer = Layer { name: "A".into(), joints: vec![], drawings, exposures, gone };
     for (drawing, &((a, b), koma, role)) in plan.iter().enumerate() {
         stills.push(&[DVec3::X * f64::from(a), DVec3::Y * f64::from(b)]);
         let source = Source::At(drawing as f64);
         let is_fill = role == Role::Genga && b % 2 == 1;
         let why = Why { reason: is_fill.then_some(Reason::Fill), ..Why::default() };
-        layer.drawings.push(Drawing { source, role, why });
+        layer.drawings.push(Drawing::new(source, role, why));
         layer.exposures.push(Exposure { drawing, koma });
     }
     (layer, stills)

@@ -63,7 +63,7 @@ impl<'a> Interval<'a> {
                 Source::Between { from, to, share: (place - from) / (to - from) }
             }
         };
-        Drawing { source, role: Role::Inbetween, why: Why::default() }
+        Drawing::new(source, Role::Inbetween, Why::default())
     }
 
     /// Returns the source place of an inbetween on a koma, drawn towards the key on its side.

@@ -42,7 +42,7 @@ impl Timed<'_> {
     fn source(self, koma: usize) -> Drawing {
         let is_end = koma == 0 || koma + 1 == self.length;
         let role = if is_end { Role::End } else { Role::Inbetween };
-        Drawing { source: Source::At(self.clock.place_from_koma(koma)), role, why: Why::default() }
+        Drawing::new(Source::At(self.clock.place_from_koma(koma)), role, Why::default())
     }
 }
 

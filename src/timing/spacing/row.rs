@@ -188,7 +188,7 @@ impl Row {
             .map(|(drawing, (begin, end))| Exposure { drawing, koma: end - begin })
             .collect();
         Spaced {
-            layer: Layer { name: "A".into(), joints: vec![], drawings, exposures },
+            layer: Layer { name: "A".into(), joints: vec![], drawings, exposures, gone: vec![] },
             did_not_fit,
             gaits: Vec::new(),
             source: Vec::new(),

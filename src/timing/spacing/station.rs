@@ -197,7 +197,7 @@ impl Station<'_> {
             }
             why.price = Some(key.price).filter(|price| price.is_finite());
         }
-        Drawing { source: Source::At(self.place), role: self.role, why }
+        Drawing::new(Source::At(self.place), self.role, why)
     }
 }
 

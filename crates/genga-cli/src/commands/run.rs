@@ -8,6 +8,7 @@ use crate::console::{Words, counted};
 use crate::failure::Failure;
 use crate::folder::Folder;
 use crate::format_args::{FormatArgs, FormatName, Formats, all_made, help, long_help};
+use crate::numbers::Numbering;
 use crate::plan::{Plan, PlanArgs};
 use crate::results::{OWN, Outcome, Results};
 use crate::{camera_args, corrections, cut_args, files, kept, outcomes, paths, pin_args};
@@ -24,11 +25,17 @@ pub(super) struct RunArgs {
     /// Output folder [default: the clip's name with -genga].
     #[arg(long, short, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Drop the corrections of the previous run.
+    /// Drop the corrections and numbers of the previous run.
     ///
     /// Those in the recipe of the same folder stay otherwise, unless --recipe is given.
     #[arg(long)]
     fresh: bool,
+    /// Number the drawings from 1; corrections stay.
+    ///
+    /// Otherwise drawings that the sheet in the folder has too keep their numbers, and one between 3 and 4 is 3a.
+    /// numbers.csv has the old and the new numbers.
+    #[arg(long)]
+    renumber: bool,
     /// Additional formats to write: --deliver remap,bvh, or all.
     #[arg(long, value_name = "FORMAT,…", value_delimiter = ',', value_parser = FormatName)]
     deliver: Vec<String>,
@@ -87,6 +94,12 @@ pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
     plan.settle(&mut engine, words, &mut |note| notes.push(note))?;
     let Plan { recipe, edits, .. } = &plan;
     let breakdown = engine.run_once(recipe, edits).map_err(files::fault_of(clip))?;
+    let numbering = match args.fresh {
+        true => Numbering::fresh(breakdown.sheet),
+        false => Numbering::new(breakdown.sheet, &place, &of, args.renumber),
+    };
+    let breakdown = breakdown.with_sheet(&numbering.sheet);
+    notes.extend(numbering.note.clone());
     notes.extend(corrections::unmoved(edits, &breakdown));
     notes.extend(corrections::unheld(edits, &breakdown));
     notes.extend(corrections::idle(edits, &breakdown));
@@ -98,6 +111,7 @@ pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
         breakdown: &breakdown,
         recipe,
         edits,
+        renumbered: &numbering.drawings,
         notes,
         is_own_recipe: given(args, &folder).is_some(),
         kept: kept(given(args, &folder), (recipe, edits)),
@@ -111,6 +125,7 @@ pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
     outcomes::of_corrections(edits, &breakdown)
         .iter()
         .for_each(|line| words.say(format_args!("correction  修正       {line}")));
+    numbering.line().iter().for_each(|line| words.say(line));
     cut_args::lines(breakdown.sheet, &name).iter().for_each(|line| words.say(line));
     shortfalls(words, &report, &breakdown);
     left.notes().iter().for_each(|note| words.say(format_args!("note        {note}")));

@@ -43,17 +43,14 @@ fn arm(frames: usize, channel: impl Fn(usize, usize) -> f64) -> Clip {
 
 /// A sheet with genga on some places.
 fn sheet(clip: &Clip, places: &[f64]) -> Sheet {
-    let drawing = |place: &f64| Drawing {
-        source: Source::At(*place),
-        role: Role::Genga,
-        why: Default::default(),
-    };
+    let drawing = |place: &f64| Drawing::new(Source::At(*place), Role::Genga, Default::default());
     let exposures = (0..places.len()).map(|drawing| Exposure { drawing, koma: 2 });
     let layer = Layer {
         name: "A".into(),
         joints: vec![],
         drawings: places.iter().map(drawing).collect(),
         exposures: exposures.collect(),
+        gone: vec![],
     };
     Sheet::new(clip.clock(24.0), vec![layer])
 }

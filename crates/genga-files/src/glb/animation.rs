@@ -216,18 +216,18 @@ impl Local {
     }
 }
 
-/// The drawings of an animation with their koma, in the terms of `sheet.json`: drawings count from 1. Koma and source
-/// frames count from 0, like the times of the keys. `layer` is that of the sheet, where all rounds of a loop show the same
-/// drawings.
+/// The drawings of an animation with their koma, under their numbers on paper. Koma and source frames count from 0, like
+/// the times of the keys. `layer` is that of the sheet, where all rounds of a loop show the same drawings.
 fn extras(shown: &[Exposed], layer: &Layer, sheet: &Sheet) -> Value {
-    let (genga, on_screen) = (layer.genga_numbers(), layer.koma().collect::<Vec<_>>());
+    let (numbers, genga) = (layer.numbers(), layer.genga_numbers());
+    let on_screen: Vec<usize> = layer.koma().collect();
     let key = |shown: &Exposed| {
         let index = on_screen[shown.shows];
         let drawing = &layer.drawings[index];
         let mut key = json!({
             "koma": sheet.blank.before + shown.begin,
             "length": shown.end - shown.begin,
-            "drawing": index + 1,
+            "drawing": numbers[index],
             "role": drawing.role.word(),
         });
         match drawing.source {
@@ -237,8 +237,8 @@ fn extras(shown: &[Exposed], layer: &Layer, sheet: &Sheet) -> Value {
                 key["share"] = (share + 0.0).into();
             }
         }
-        if let Some(number) = genga[index] {
-            key["genga_no"] = number.into();
+        if let Some(number) = &genga[index] {
+            key["genga_no"] = json!(number);
         }
         key
     };

@@ -124,8 +124,8 @@ fn extras(
         let keys = keys.iter().zip(seconds).map(|(key, second)| {
             let role = key.drawing.map_or("added", |at| layer.drawings[at].role.word());
             let mut entry = json!({ "time": second, "frame": key.place, "role": role });
-            if let Some(number) = key.drawing.and_then(|at| genga[at]) {
-                entry["genga_no"] = number.into();
+            if let Some(number) = key.drawing.and_then(|at| genga[at].as_ref()) {
+                entry["genga_no"] = json!(number);
             }
             entry
         });

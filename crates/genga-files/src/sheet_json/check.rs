@@ -35,6 +35,7 @@ impl SheetFile {
                 }
             }
         }
+        self.sheet.check_numbers()?;
         self.sheet.check()
     }
 }

@@ -2,7 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use genga::sheet::{Drawing, Exposure, Layer, Role, Source, Why, is_default};
+use genga::sheet::{
+    Drawing, Exposure, Gone, Layer, Number, Numbers, Role, Source, Why, is_default,
+};
 
 /// A layer.
 #[derive(Debug, Serialize)]
@@ -12,6 +14,8 @@ pub(super) struct LayerLines {
     joints: Vec<String>,
     drawings: Vec<DrawingLine>,
     exposures: Vec<Exposure>,
+    #[serde(skip_serializing_if = "is_default")]
+    gone: Vec<Gone>,
 }
 
 /// A drawing as a line: its number, its role, the source of its pose, and why it was drawn.
@@ -20,6 +24,11 @@ pub(super) struct LayerLines {
 pub(super) struct DrawingLine {
     /// Number by which exposures refer to it.
     pub(super) drawing: usize,
+    /// Its number on paper, if it comes from an earlier sheet.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    name: Option<Number>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    genga_no: Option<Number>,
     role: Role,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     frame: Option<f64>,
@@ -42,6 +51,7 @@ impl LayerLines {
             joints: layer.joints.clone(),
             drawings: drawings.map(|(number, drawing)| DrawingLine::new(number, drawing)).collect(),
             exposures: layer.exposures.iter().map(numbered).collect(),
+            gone: layer.gone.clone(),
         }
     }
 }
@@ -52,8 +62,9 @@ impl DrawingLine {
             Source::At(place) => (Some(place), None, None),
             Source::Between { from, to, share } => (None, Some([from, to]), Some(share)),
         };
-        let Drawing { role, why, .. } = drawing.clone();
-        Self { drawing: number, role, frame, between, share, why }
+        let Drawing { role, why, numbers, .. } = drawing.clone();
+        let Numbers { drawing: name, genga: genga_no } = numbers;
+        Self { drawing: number, name, genga_no, role, frame, between, share, why }
     }
 
     /// Converts the line to a drawing, or returns what is wrong with it.
@@ -66,6 +77,7 @@ impl DrawingLine {
                             \"between\": [42, 48], \"share\": 0.5");
             }
         };
-        Ok(Drawing { source, role: self.role, why: self.why })
+        let numbers = Numbers { drawing: self.name, genga: self.genga_no };
+        Ok(Drawing { source, role: self.role, why: self.why, numbers })
     }
 }

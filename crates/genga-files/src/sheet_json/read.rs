@@ -10,7 +10,7 @@ use super::text::Text;
 use super::{MadeOf, MadeWith, SCHEMA, SCHEMA_FROM_0, SheetFile, check};
 use genga::error::Error;
 use genga::exaggerate::Exaggerate;
-use genga::sheet::{Blank, CameraWork, Exposure, Layer, Repeat, Sheet, SpokenLine};
+use genga::sheet::{Blank, CameraWork, Exposure, Gone, Layer, Repeat, Sheet, SpokenLine};
 use genga::slate::Slate;
 use genga::time::{Clock, Frame, FrameRate};
 
@@ -70,12 +70,14 @@ struct WrittenLayer<'a> {
     drawings: Vec<&'a RawValue>,
     #[serde(borrow)]
     exposures: Vec<&'a RawValue>,
+    #[serde(borrow, default)]
+    gone: Vec<&'a RawValue>,
 }
 
 /// Reads a `sheet.json`.
 ///
-/// A drawing's number may be any that is unique in its layer. The drawings keep the order of the list, whatever
-/// their numbers.
+/// The number by which exposures refer to a drawing may be any that is unique in its layer. The drawings keep the order
+/// of the list, whatever it is.
 ///
 /// # Errors
 /// [`Error::Sheet`] with line and column if the text is not such a file, has another schema version, or
@@ -255,5 +257,7 @@ fn layer(
         *length = exposure.after(*length).map_err(|message| text.error(raw, message))?;
         exposures.push(exposure);
     }
-    Ok(Layer { name: written.name, joints: written.joints, drawings, exposures })
+    let gone = written.gone.into_iter().map(|raw| text.value::<Gone>(raw));
+    let gone = gone.collect::<Result<_, _>>()?;
+    Ok(Layer { name: written.name, joints: written.joints, drawings, exposures, gone })
 }

@@ -14,10 +14,9 @@ const SHOWN: [usize; 5] = [220, 240, 220, 260, 230];
 
 /// An edited sheet: an inbetween after the first genga, and every genga exposed for 6 koma.
 fn edited(clip: &Clip) -> Sheet {
-    let drawing = |at: usize| Drawing {
-        source: Source::At(4.0 + at as f64 / 10.0),
-        role: if at < INBETWEENS { Role::Inbetween } else { Role::Genga },
-        why: Why::default(),
+    let drawing = |at: usize| {
+        let role = if at < INBETWEENS { Role::Inbetween } else { Role::Genga };
+        Drawing::new(Source::At(4.0 + at as f64 / 10.0), role, Why::default())
     };
     let mut shown: Vec<usize> = SHOWN.iter().map(|number| INBETWEENS + number - 1).collect();
     shown.insert(1, 7);
@@ -26,6 +25,7 @@ fn edited(clip: &Clip) -> Sheet {
         joints: vec![],
         drawings: (0..INBETWEENS + 300).map(drawing).collect(),
         exposures: shown.into_iter().map(|drawing| Exposure { drawing, koma: 6 }).collect(),
+        gone: vec![],
     };
     Sheet::new(clip.clock(24.0), vec![layer])
 }

@@ -26,7 +26,7 @@ fn douga(layer: &Layer, length: usize) -> Vec<usize> {
 
 /// Number of the last genga begun by each koma, or 0 if there is none.
 fn genga(layer: &Layer, length: usize) -> Vec<usize> {
-    let numbers = layer.genga_numbers();
+    let numbers = layer.genga_places();
     let mut last = 0;
     let mut shown: Vec<usize> = layer
         .koma()

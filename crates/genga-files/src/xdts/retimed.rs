@@ -3,7 +3,7 @@
 use super::column;
 use super::read::{Change, Column, Exchange, Mark};
 use genga::error::Error;
-use genga::sheet::{Blank, Exposure, Layer, Sheet};
+use genga::sheet::{Blank, Exposure, Layer, Number, Sheet};
 
 /// Applies the timing of a timesheet whose drawings are all numbered (CELL) to a sheet. Drawings may be moved, held
 /// longer or shorter, shown twice or left out, and the sheet may change its length. Blank koma before all drawings and
@@ -92,12 +92,13 @@ fn exposures(
     (before, length): (usize, usize),
 ) -> Result<Vec<Exposure>, Error> {
     let mut exposures: Vec<Exposure> = Vec::with_capacity(column.changes.len());
+    let numbers = layer.numbers();
     let ends = column.changes.iter().skip(1).map(|change| change.koma).chain([length]);
     let shown = column.changes.iter().rposition(|change| change.mark != Mark::Blank);
     let shown = column.changes.iter().zip(ends).take(shown.map_or(0, |last| last + 1));
     for (change, end) in shown.filter(|(_, end)| *end > before) {
         let koma = end.saturating_sub(change.koma);
-        match drawing(column, change, layer)? {
+        match drawing(column, change, &numbers)? {
             Some(drawing) if koma > 0 => exposures.push(Exposure { drawing, koma }),
             // An inbetween mark: the drawing before it stays.
             None => exposures.iter_mut().last().into_iter().for_each(|last| last.koma += koma),
@@ -108,18 +109,24 @@ fn exposures(
 }
 
 /// The drawing that a change brings; `None` if the one before stays.
-fn drawing(column: &Column, change: &Change, layer: &Layer) -> Result<Option<usize>, Error> {
+fn drawing(column: &Column, change: &Change, numbers: &[Number]) -> Result<Option<usize>, Error> {
     let place = || format!("column {}, koma {}", column.name, change.koma + 1);
-    let count = layer.drawings.len();
     match &change.mark {
-        Mark::Drawing(number) => match number.trim().parse::<usize>() {
-            Ok(number) if (1..=count).contains(&number) => Ok(Some(number - 1)),
-            _ => Err(Error::sheet(format!(
-                "{}: the sheet has no drawing {number}, it has 1 to {count}; one that was added by hand has no pose in \
-                 the capture: write the number of one that has, or pin a key there with --pin-from",
-                place()
-            ))),
-        },
+        Mark::Drawing(text) => {
+            let number = text.parse().ok().and_then(|number| numbers.binary_search(&number).ok());
+            let range = || match numbers {
+                [] => "none".into(),
+                [first, ..] => format!("{first} to {}", numbers[numbers.len() - 1]),
+            };
+            number.map(Some).ok_or_else(|| {
+                Error::sheet(format!(
+                    "{}: the sheet has no drawing {text}, it has {}; one that was added by hand has no pose in the \
+                     capture: write the number of one that has, or pin a key there with --pin-from",
+                    place(),
+                    range()
+                ))
+            })
+        }
         Mark::Blank => Err(Error::sheet(format!(
             "{}: nothing is shown there, between drawings of this column or before it enters with the others, and a motion \
              has a pose on every koma; hold a drawing over it",

@@ -7,7 +7,7 @@ use serde_json::ser::{CompactFormatter, Formatter, Serializer};
 
 use super::file::{Datum, Entry, Field, Header, Names, Root, TimeTable, Track};
 use super::{BLANK, CELS, CIRCLED, EXTENDED, INBETWEEN, SIGNATURE, speech};
-use genga::error::Error;
+use genga::error::{Error, Warning};
 use genga::knob::{knob, knobs};
 use genga::sheet::{Layer, Sheet, column_name};
 use genga::slate::Slate;
@@ -78,6 +78,21 @@ impl Xdts {
     }
 }
 
+/// Says if there are numbers that OpenToonz reads only on request.
+pub(crate) fn notes(sheet: &Sheet) -> Vec<Warning> {
+    let numbers = sheet.layers.iter().flat_map(Layer::numbers);
+    let long = numbers.filter(|number| number.letters().len() > 1).map(|number| number.to_string());
+    let long: Vec<String> = long.collect();
+    if long.is_empty() {
+        return vec![];
+    }
+    let message = format!(
+        "OpenToonz reads {} only if the project's settings of file paths allow more than one letter",
+        long.join(" ")
+    );
+    vec![Warning::new("W_LONG_NUMBERS", message)]
+}
+
 /// The time table of a sheet: a field per column of the paper, with a track per layer, and a field of dialogue if any.
 pub(super) fn time_table(sheet: &Sheet, cut: &str, columns: &[(u32, Column)]) -> TimeTable {
     let names = sheet.layers.iter().enumerate().map(|(track, layer)| name(track, &layer.name));
@@ -106,14 +121,14 @@ pub(super) fn time_table(sheet: &Sheet, cut: &str, columns: &[(u32, Column)]) ->
 
 /// The changes of a layer as entries: a blank before its first koma, if it enters late, and one after its last.
 pub(super) fn entries(sheet: &Sheet, layer: &Layer, column: Column) -> Vec<Entry> {
-    let genga = layer.genga_numbers();
+    let (numbers, genga) = (layer.numbers(), layer.genga_numbers());
     let before = sheet.blank.before;
     let mut entries = Vec::new();
     if before > 0 {
         entries.push(entry(0, BLANK.into(), false));
     }
     for (koma, drawing) in layer.changes() {
-        let (koma, key) = (before + koma, genga[drawing]);
+        let (koma, key) = (before + koma, &genga[drawing]);
         match (column, key) {
             (Column::Genga { .. }, Some(number)) => {
                 entries.push(entry(koma, number.to_string(), false));
@@ -123,7 +138,7 @@ pub(super) fn entries(sheet: &Sheet, layer: &Layer, column: Column) -> Vec<Entry
             }
             (Column::Genga { has_marks: false }, None) => {}
             (Column::Douga { has_circles }, _) => {
-                let number = (drawing + 1).to_string();
+                let number = numbers[drawing].to_string();
                 entries.push(entry(koma, number, has_circles && key.is_some()));
             }
         }

@@ -172,10 +172,9 @@ mod tests {
     /// Builds a sheet whose drawings show these frames for these numbers of koma; the first and last are ends.
     fn sheet(clip: &Clip, shown: &[(f64, usize)]) -> Sheet {
         let last = shown.len() - 1;
-        let drawings = shown.iter().enumerate().map(|(at, (place, _))| Drawing {
-            source: Source::At(*place),
-            role: if at == 0 || at == last { Role::End } else { Role::Genga },
-            why: Why::default(),
+        let drawings = shown.iter().enumerate().map(|(at, (place, _))| {
+            let role = if at == 0 || at == last { Role::End } else { Role::Genga };
+            Drawing::new(Source::At(*place), role, Why::default())
         });
         let exposures = shown.iter().enumerate();
         let exposures = exposures.map(|(drawing, (_, koma))| Exposure { drawing, koma: *koma });
@@ -184,6 +183,7 @@ mod tests {
             joints: vec![],
             drawings: drawings.collect(),
             exposures: exposures.collect(),
+            gone: vec![],
         };
         Sheet::new(clip.clock(24.0), vec![layer])
     }

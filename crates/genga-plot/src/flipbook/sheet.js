@@ -104,7 +104,7 @@ function drawGenga(ctx, drawing, [x, y], colors) {
   if (!drawing.genga) return;
   ctx.stroke();
   ctx.textAlign = "center";
-  ctx.font = `bold ${drawing.genga > 99 ? 9 : 11}px sans-serif`;
+  ctx.font = `bold ${String(drawing.genga).length > 2 ? 9 : 11}px sans-serif`;
   ctx.fillStyle = drawing.pinned ? colors.paper : color;
   ctx.fillText(drawing.genga, x, y + 1);
 }

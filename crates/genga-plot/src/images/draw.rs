@@ -14,7 +14,7 @@ use crate::stage::{Bounds, Stage};
 use crate::style;
 use genga::error::Error;
 use genga::motion::{Clip, Composite, first_round, layer_of};
-use genga::sheet::{Layer, Sheet};
+use genga::sheet::{Layer, Number, Sheet};
 
 /// Share of the picture on each side that figures stay out of: the edge of the safe area.
 const SAFE: f64 = 0.05;
@@ -32,14 +32,19 @@ struct Easel {
 
 impl Easel {
     /// Draws figures, each with its number, on all cores. Returns the PNGs in the same order.
-    fn pictures(&self, figures: &[(Drawn, usize)]) -> Result<Vec<Vec<u8>>, Error> {
-        let draw = |pixels: &mut Pixels, (drawn, number): &(Drawn, usize)| {
-            self.picture(pixels, drawn, *number)
+    fn pictures(&self, figures: &[(Drawn, &Number)]) -> Result<Vec<Vec<u8>>, Error> {
+        let draw = |pixels: &mut Pixels, (drawn, number): &(Drawn, &Number)| {
+            self.picture(pixels, drawn, number)
         };
         figures.par_iter().map_init(|| self.backdrop.clone(), draw).collect()
     }
 
-    fn picture(&self, pixels: &mut Pixels, drawn: &Drawn, number: usize) -> Result<Vec<u8>, Error> {
+    fn picture(
+        &self,
+        pixels: &mut Pixels,
+        drawn: &Drawn,
+        number: &Number,
+    ) -> Result<Vec<u8>, Error> {
         pixels.copy(&self.backdrop);
         pixels.figure(drawn, Inks::Sides);
         if let Some((at, digits)) = &self.number {
@@ -89,14 +94,15 @@ impl NumberedImages {
     ) -> Result<(), E> {
         self.set_up(clip, sheet, |composite, easel, placing| {
             let name: String = composite.layer().name.chars().map(plain).collect();
+            let numbers = composite.layer().numbers();
             let drawings = drawings(composite);
             for some in drawings.chunks(AT_ONCE) {
                 let figure = |(at, koma): &(usize, usize)| {
-                    (easel.stage.draw(&placing.points(*at, *koma)), at + 1)
+                    (easel.stage.draw(&placing.points(*at, *koma)), &numbers[*at])
                 };
                 let figures: Vec<_> = some.iter().map(figure).collect();
                 for ((at, _), picture) in some.iter().zip(easel.pictures(&figures)?) {
-                    take(&format!("{name}_{:04}.png", at + 1), picture)?;
+                    take(&format!("{name}_{:04}.png", numbers[*at]), picture)?;
                 }
             }
             Ok(())
@@ -121,9 +127,10 @@ impl NumberedImages {
             for (column, layer) in sheet.layers.iter().enumerate() {
                 let own = columns.iter().map(|of| *of == column).collect();
                 let stage = Stage { figure: easel.stage.figure.only(own), ..easel.stage.clone() };
+                let numbers = layer.numbers();
                 for some in first_shown(layer).chunks(AT_ONCE) {
                     let figure = |(drawing, koma): &(usize, usize)| {
-                        (stage.draw(&placing.points(on_screen[*koma], *koma)), drawing + 1)
+                        (stage.draw(&placing.points(on_screen[*koma], *koma)), &numbers[*drawing])
                     };
                     let figures: Vec<_> = some.iter().map(figure).collect();
                     for ((drawing, _), picture) in some.iter().zip(easel.pictures(&figures)?) {

@@ -1,10 +1,12 @@
-//! Writes numbers with strokes, so that they need no font and look the same on every machine.
+//! Writes numbers and their letters with strokes, so that they need no font and look the same on every machine.
 
 use plotters::style::RGBColor;
 use tiny_skia::{LineCap, LineJoin, Path, PathBuilder, Rect, Stroke, Transform};
 
+use super::letters::LETTERS;
 use super::{Pixels, paint};
 use crate::paper_point::Point;
+use genga::sheet::Number;
 
 /// Distance from one digit to the next, width and height of its strokes' middle line, and the strokes' width, as
 /// shares of the size of the letters.
@@ -13,8 +15,8 @@ const WIDE: f32 = 0.42;
 const HIGH: f32 = 0.64;
 const BOLD: f32 = 0.115;
 
-/// A part of a digit, in a square of 1 by 1 with y down.
-enum Part {
+/// A part of a sign, in a square of 1 by 1 with y down.
+pub(super) enum Part {
     /// Begins a stroke.
     From(f32, f32),
     /// A straight line.
@@ -76,6 +78,7 @@ const DIGITS: [&[Part]; 10] = [
 /// Numbers of one size and colour.
 pub(crate) struct Digits {
     digits: Vec<Path>,
+    letters: Vec<Path>,
     size: f64,
     color: RGBColor,
 }
@@ -83,12 +86,14 @@ pub(crate) struct Digits {
 impl Digits {
     /// Prepares the digits for letters of a size in px.
     pub(crate) fn new(size: f64, color: RGBColor) -> Self {
-        let digits = DIGITS.iter().filter_map(|parts| outline(parts, size as f32)).collect();
-        Self { digits, size, color }
+        let paths = |strokes: &[&[Part]]| {
+            strokes.iter().filter_map(|parts| outline(parts, size as f32)).collect()
+        };
+        Self { digits: paths(&DIGITS), letters: paths(&LETTERS), size, color }
     }
 
     /// Writes a number that ends at a point on its base line.
-    pub(crate) fn write(&self, pixels: &mut Pixels, number: usize, (x, base): Point) {
+    pub(crate) fn write(&self, pixels: &mut Pixels, number: &Number, (x, base): Point) {
         let advance = (ADVANCE * self.size).ceil();
         let size = self.size as f32;
         let stroke = Stroke {
@@ -98,19 +103,22 @@ impl Digits {
             ..Stroke::default()
         };
         let mut left = x.round();
-        for digit in number.to_string().bytes().rev() {
+        for sign in number.to_string().bytes().rev() {
             left -= advance;
             let place = Transform::from_translate(
                 left as f32 + 0.5 * (advance as f32 - WIDE * size),
                 base.round() as f32 - (HIGH + 0.5 * BOLD) * size,
             );
-            let path = &self.digits[usize::from(digit - b'0')];
+            let path = match sign {
+                b'a'..=b'z' => &self.letters[usize::from(sign - b'a')],
+                digit => &self.digits[usize::from(digit - b'0')],
+            };
             pixels.map.stroke_path(path, &paint(self.color), &stroke, place, None);
         }
     }
 }
 
-/// Builds the middle line of a digit for letters of a size in px.
+/// Builds the middle line of a sign for letters of a size in px.
 fn outline(parts: &[Part], size: f32) -> Option<Path> {
     let (wide, high) = (WIDE * size, HIGH * size);
     let mut path = PathBuilder::new();

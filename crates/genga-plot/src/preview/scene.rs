@@ -14,7 +14,7 @@ use crate::side_by_side::{Reel, SideBySide};
 use crate::stage::{Bounds, Stage};
 use crate::style;
 use genga::error::Error;
-use genga::sheet::Source;
+use genga::sheet::{Number, Source};
 
 /// Space above the figures and below the floor, in px.
 const TOP: f64 = 44.0;
@@ -55,7 +55,7 @@ pub(super) struct Moment {
 struct Shown {
     pose: Vec<DVec3>,
     /// Number under which the drawing is known, and whether it is a key; `None` for the source.
-    drawing: Option<(usize, bool)>,
+    drawing: Option<(Number, bool)>,
 }
 
 /// Poses the figures, koma by koma.
@@ -66,7 +66,7 @@ pub(super) struct Cast<'a> {
     /// Poses of each reel.
     showing: Vec<Showing<'a>>,
     /// Number of the drawing on each koma of each reel.
-    numbers: Vec<Vec<usize>>,
+    numbers: Vec<Vec<Number>>,
 }
 
 impl<'a> Cast<'a> {
@@ -75,7 +75,10 @@ impl<'a> Cast<'a> {
         let marks = figure.marks();
         let source = matches!(shown, SideBySide::Source(..))
             .then(|| Posing::new(reels[0].composite.clip(), marks));
-        let numbers = |reel: &Reel<'_>| reel.named.koma().map(|drawing| drawing + 1).collect();
+        let numbers = |reel: &Reel<'_>| {
+            let numbers = reel.named.numbers();
+            reel.named.koma().map(|drawing| numbers[drawing].clone()).collect()
+        };
         Self {
             source,
             reels,
@@ -95,7 +98,7 @@ impl<'a> Cast<'a> {
             }
             let pose = self.showing[at].points(on_screen.drawing, on_screen.koma);
             let is_kept = reel.composite.layer().drawings[on_screen.drawing].role.is_kept();
-            let drawing = Some((self.numbers[at][on_screen.koma], is_kept));
+            let drawing = Some((self.numbers[at][on_screen.koma].clone(), is_kept));
             // A sheet alone stands in the second panel, beside its source.
             panels[at + 2 - self.reels.len()] = Some(Shown { pose, drawing });
         }
@@ -147,15 +150,15 @@ impl Scene {
         for (panel, shown) in moment.panels.iter().enumerate() {
             let Some(Shown { pose, drawing }) = shown else { continue };
             self.figure(pixels, panel, pose);
-            if let Some((number, is_kept)) = *drawing {
-                let digits = if is_kept { &self.genga } else { &self.plain };
+            if let Some((number, is_kept)) = drawing {
+                let digits = if *is_kept { &self.genga } else { &self.plain };
                 digits.write(pixels, number, (self.number_ends[panel], 28.0));
             }
         }
         if self.differences.get(moment.koma) == Some(&true) {
             self.unlike(pixels);
         }
-        self.small.write(pixels, moment.koma + 1, (PAD + 68.0, self.size.1 - 10.0));
+        self.small.write(pixels, &(moment.koma + 1).into(), (PAD + 68.0, self.size.1 - 10.0));
         let (head, high) = self.bars.here(moment.koma);
         pixels.rect(head, (2.0, high), style::INK);
     }

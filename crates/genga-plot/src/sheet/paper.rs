@@ -4,7 +4,7 @@ use crate::canvas::{Align, Canvas, Type};
 use crate::chart::number;
 use crate::sheet::fate::Fate;
 use crate::style;
-use genga::sheet::{Drawing, Exposure, Layer, Role};
+use genga::sheet::{Drawing, Exposure, Layer, Number, Role};
 
 pub(super) const LEFT: f64 = 52.0;
 const SECONDS: f64 = 18.0;
@@ -23,7 +23,7 @@ const LANES: usize = 3;
 pub(super) struct Badge {
     pub(super) koma: usize,
     pub(super) role: Role,
-    pub(super) number: usize,
+    pub(super) number: Number,
     pub(super) pinned: bool,
     pub(super) lane: Option<usize>,
 }
@@ -59,14 +59,14 @@ pub(super) fn badges(layer: &Layer, in_line: usize, slot: f64) -> Vec<Badge> {
     let numbers = layer.genga_numbers();
     let badge = |(koma, shown): (usize, Exposure)| {
         let Drawing { role, why, .. } = &layer.drawings[shown.drawing];
-        let number = numbers[shown.drawing]?;
+        let number = numbers[shown.drawing].clone()?;
         Some(Badge { koma, role: *role, number, pinned: why.pinned.is_some(), lane: None })
     };
     let mut badges: Vec<_> = layer.timed().filter_map(badge).collect();
     // A gap at every line's end, since numbers on different lines are no neighbours.
     let gap = 4.0 * style::BADGE;
     let place = |koma: usize| koma as f64 * slot + (koma / in_line) as f64 * gap;
-    let mark = |badge: &Badge| (place(badge.koma), style::badge_reach(badge.number));
+    let mark = |badge: &Badge| (place(badge.koma), style::badge_reach(&badge.number));
     let lanes = style::lanes(badges.iter().map(mark).collect::<Vec<_>>(), LANES);
     for (badge, lane) in badges.iter_mut().zip(lanes) {
         badge.lane = lane;
@@ -228,7 +228,7 @@ impl Paper<'_> {
             let y = low - style::BADGE - 2.0 * style::BADGE * lane as f64;
             let colour = style::of_role(badge.role);
             canvas.line((x, y), (x, low + 2.0), colour, 1.0);
-            canvas.badge((x, y), badge.number, colour, badge.pinned);
+            canvas.badge((x, y), &badge.number, colour, badge.pinned);
         }
     }
 

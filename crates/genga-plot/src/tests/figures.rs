@@ -5,7 +5,7 @@ use serde_json::Value;
 use super::flipbook::take;
 use super::*;
 use crate::canvas::Canvas;
-use crate::drawings::shown_drawings;
+use crate::drawings::{ShownDrawing, shown_drawings};
 use crate::points::Posing;
 use genga::sheet::Repeat;
 
@@ -220,14 +220,20 @@ fn a_long_strip_is_wrapped_and_paged_without_losing_a_koma() {
     assert!(bytes < 400 * 1500, "a figure of six joints takes {} bytes", bytes / 400);
 }
 
+/// Returns each drawing's number, place among the genga, and koma.
+fn numbered(cells: &[ShownDrawing<'_>]) -> Vec<String> {
+    let words =
+        |cell: &ShownDrawing<'_>| format!("{} {:?} {}", cell.number(), cell.genga, cell.koma);
+    cells.iter().map(words).collect()
+}
+
 #[test]
 fn numbers_are_those_of_the_key_table() {
     let (_, sheet) = walk();
     let cells = shown_drawings(&sheet.layers[0]);
-    let numbers: Vec<_> = cells.iter().map(|cell| (cell.number(), cell.genga, cell.koma)).collect();
     assert_eq!(
-        numbers,
-        [(1, Some(1), 0), (2, None, 1), (3, Some(2), 3), (4, None, 6), (5, Some(3), 7)]
+        numbered(&cells),
+        ["1 Some(1) 0", "2 None 1", "3 Some(2) 3", "4 None 6", "5 Some(3) 7"]
     );
 }
 
@@ -238,8 +244,7 @@ fn an_edited_sheet_keeps_the_numbers_of_its_drawings() {
     let exposures = shown.map(|(drawing, koma)| Exposure { drawing, koma }).to_vec();
     sheet.layers[0].exposures = exposures;
     let cells = shown_drawings(&sheet.layers[0]);
-    let numbers: Vec<_> = cells.iter().map(|cell| (cell.number(), cell.genga, cell.koma)).collect();
-    assert_eq!(numbers, [(5, Some(3), 0), (1, Some(1), 2), (5, Some(3), 3), (2, None, 6)]);
+    assert_eq!(numbered(&cells), ["5 Some(3) 0", "1 Some(1) 2", "5 Some(3) 3", "2 None 6"]);
     let take = take(&FlipBook::default().draw("cut", &SideBySide::Source(&clip, &sheet)).unwrap());
     let drawings = take["sheets"][0]["drawings"].as_array().unwrap();
     let genga = drawings.iter().map(|drawing| &drawing["genga"]);

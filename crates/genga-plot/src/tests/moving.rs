@@ -152,6 +152,24 @@ fn each_image_with_marks_has_its_own_number_below_the_floor() {
     }
 }
 
+#[test]
+fn the_number_of_a_drawing_that_came_later_has_its_letter_in_name_and_picture() {
+    let (clip, _) = walk();
+    let mut sheet = Sheet::on_ones(clip.clock(24.0), 1);
+    let marked =
+        NumberedImages { marks: true, width: 320, height: 180, ..NumberedImages::default() };
+    let mut seen: Vec<Vec<u8>> = vec![];
+    let letters = ('a'..='y').map(String::from).chain(["".into(), "za".into()]);
+    for letters in letters {
+        sheet.layers[0].drawings[0].numbers.drawing = format!("3{letters}").parse().ok();
+        let (name, png) = images(&marked, &clip, &sheet).remove(0);
+        assert_eq!(name, format!("A_0003{letters}.png"));
+        let pixels = Pixmap::decode_png(&png).unwrap().data().to_vec();
+        assert!(!seen.contains(&pixels), "{name} looks like another");
+        seen.push(pixels);
+    }
+}
+
 /// Returns every picture of a GIF as it is shown on the screen, with its time in hundredths of a second.
 fn played(bytes: &[u8]) -> Vec<(Vec<u8>, u16)> {
     let mut options = DecodeOptions::new();

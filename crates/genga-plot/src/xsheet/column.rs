@@ -9,7 +9,7 @@ use crate::xsheet::InbetweenMark;
 use crate::xsheet::half_page::{Half, Place, ROW};
 use crate::xsheet::layout::Page;
 use crate::xsheet::paper_layer::Leaf;
-use genga::sheet::Exposure;
+use genga::sheet::{Exposure, Number};
 
 /// Fills the ACTION column (原画): a number for each key, a mark for each inbetween.
 pub(super) fn action(
@@ -19,21 +19,16 @@ pub(super) fn action(
     half: Half,
     place: Place,
 ) {
-    column(
-        canvas,
-        page,
-        leaf,
-        half,
-        place,
-        &|canvas, shown, center| match leaf.genga[shown.drawing] {
-            Some(number) => key(canvas, leaf, shown.drawing, number, center),
-            None => match page.settings.inbetween {
-                InbetweenMark::Dot => canvas.disc(center, 2.2, style::INK),
-                InbetweenMark::Circle => canvas.ring(center, 4.0, style::INK, 1.1),
-            },
+    column(canvas, page, leaf, half, place, &|canvas, shown, center| match &leaf.genga
+        [shown.drawing]
+    {
+        Some(number) => key(canvas, leaf, shown.drawing, number, center),
+        None => match page.settings.inbetween {
+            InbetweenMark::Dot => canvas.disc(center, 2.2, style::INK),
+            InbetweenMark::Circle => canvas.ring(center, 4.0, style::INK, 1.1),
         },
-    );
-    carried_over(canvas, leaf, half, place, &|drawing| leaf.genga[drawing]);
+    });
+    carried_over(canvas, leaf, half, place, &|drawing| leaf.genga[drawing].as_ref());
 }
 
 /// Fills the CELL column (動画): every drawing's number, bold for keys, and END under the highest. A circle holds the
@@ -50,9 +45,9 @@ pub(super) fn cell(
         let color = style::of_role(leaf.layer.drawings[shown.drawing].role);
         let is_key = leaf.genga[shown.drawing].is_some();
         let look = if is_key { look.bold().color(color) } else { look };
-        written(canvas, shown.drawing + 1, center, look);
+        written(canvas, &leaf.numbers[shown.drawing], center, look);
     });
-    carried_over(canvas, leaf, half, place, &|drawing| Some(drawing + 1));
+    carried_over(canvas, leaf, half, place, &|drawing| leaf.numbers.get(drawing));
     mark_end(canvas, leaf, half, place);
 }
 
@@ -150,12 +145,12 @@ fn empty(canvas: &mut Canvas, half: Half, place: Place, (begin, end): (usize, us
 }
 
 /// Writes the number of a drawing held over from before this half, in brackets on the first koma.
-fn carried_over(
+fn carried_over<'a>(
     canvas: &mut Canvas,
-    leaf: &Leaf<'_>,
+    leaf: &'a Leaf<'_>,
     half: Half,
     place: Place,
-    number: &dyn Fn(usize) -> Option<usize>,
+    number: &dyn Fn(usize) -> Option<&'a Number>,
 ) {
     let before = leaf.on(half).next().filter(|(begin, _)| *begin < half.begin);
     let before = before.filter(|(begin, _)| leaf.repeat.is_none_or(|repeat| *begin < repeat));
@@ -186,7 +181,7 @@ pub(super) fn key(
     canvas: &mut Canvas,
     leaf: &Leaf<'_>,
     drawing: usize,
-    number: usize,
+    number: &Number,
     center: Point,
 ) {
     let drawing = &leaf.layer.drawings[drawing];
@@ -201,8 +196,12 @@ pub(super) fn key(
     written(canvas, number, center, look.bold());
 }
 
-fn written(canvas: &mut Canvas, number: usize, (x, y): Point, look: Type) {
+fn written(canvas: &mut Canvas, number: &Number, (x, y): Point, look: Type) {
     let text = number.to_string();
-    let size = if text.len() > 2 { 8.0 } else { look.size };
+    let size = match text.len() {
+        0..=2 => look.size,
+        3 => 8.0,
+        _ => 6.5,
+    };
     canvas.text(&text, (x, y + 0.36 * size), Type { size, ..look }.align(Align::Center));
 }

@@ -82,7 +82,7 @@ fn entry(
     ticks(canvas, leaf, gauge, (from, base));
     for (exposure, x) in [(gauge.first, from), (last, from + LONG)] {
         let drawing = layer.exposures[exposure].drawing;
-        if let Some(number) = leaf.genga[drawing] {
+        if let Some(number) = &leaf.genga[drawing] {
             key(canvas, leaf, drawing, number, (x, base));
         }
     }
@@ -102,7 +102,7 @@ fn ticks(canvas: &mut Canvas, leaf: &Leaf<'_>, gauge: &Gauge, (from, base): (f64
         canvas.line((x, base - 10.5), (x, base + 10.5), style::INK, 1.2);
     }
     let exposures = &leaf.layer.exposures[gauge.first + 1..][..wanted.len()];
-    let numbers = exposures.iter().map(|shown| (shown.drawing + 1).to_string()).collect();
+    let numbers = exposures.iter().map(|shown| leaf.numbers[shown.drawing].to_string()).collect();
     let fractions = gauge.between().iter().map(|share| fraction(*share).to_owned()).collect();
     let rows: [(Vec<String>, f64); 2] = [(numbers, base - 13.0), (fractions, base + 21.0)];
     for (labels, y) in rows {

@@ -1,15 +1,17 @@
 //! Prepares a layer for the sheet on paper, in one pass.
 
 use crate::xsheet::half_page::Half;
-use genga::sheet::{Exposure, Layer};
+use genga::sheet::{Exposure, Layer, Number};
 use genga::timing::Gauge;
 
 /// A layer with facts about its drawings.
 pub(super) struct Leaf<'a> {
     pub(super) layer: &'a Layer,
     pub(super) gauges: &'a [Gauge],
+    /// Number of each drawing.
+    pub(super) numbers: Vec<Number>,
     /// Number of each drawing among the keys; `None` for an inbetween.
-    pub(super) genga: Vec<Option<usize>>,
+    pub(super) genga: Vec<Option<Number>>,
     /// Koma on which each exposure begins.
     pub(super) begins: Vec<usize>,
     /// Koma on which the highest drawing begins for the last time: END is written under it.
@@ -34,7 +36,8 @@ impl<'a> Leaf<'a> {
         let last = written.max_by_key(|(_, shown)| shown.drawing);
         let end = last.map(|(begin, _)| before + begin);
         let own = gauges.partition_point(|gauge| is_written(begins[gauge.first]));
-        Self { layer, gauges: &gauges[..own], genga: layer.genga_numbers(), begins, end, repeat }
+        let (numbers, genga) = (layer.numbers(), layer.genga_numbers());
+        Self { layer, gauges: &gauges[..own], numbers, genga, begins, end, repeat }
     }
 
     /// Whether a koma lies in a repeat, behind its first drawing.

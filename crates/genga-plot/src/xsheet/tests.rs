@@ -2,7 +2,9 @@
 
 use super::*;
 use genga::motion::bvh;
-use genga::sheet::{Blank, CameraWork, Drawing, Exposure, Layer, Role, Source, SpokenLine, Why};
+use genga::sheet::{
+    Blank, CameraWork, Drawing, Exposure, Layer, Numbers, Role, Source, SpokenLine, Why,
+};
 
 fn clip() -> Clip {
     let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/kick.bvh");
@@ -16,10 +18,8 @@ fn layer(name: &str, shown: &[(char, usize)]) -> Layer {
         'g' => Role::Genga,
         _ => Role::Inbetween,
     };
-    let drawing = |(at, (letter, _)): (usize, &(char, usize))| Drawing {
-        source: Source::At(at as f64),
-        role: role(*letter),
-        why: Why::default(),
+    let drawing = |(at, (letter, _)): (usize, &(char, usize))| {
+        Drawing::new(Source::At(at as f64), role(*letter), Why::default())
     };
     let exposure =
         |(drawing, (_, koma)): (usize, &(char, usize))| Exposure { drawing, koma: *koma };
@@ -28,6 +28,7 @@ fn layer(name: &str, shown: &[(char, usize)]) -> Layer {
         joints: vec![],
         drawings: shown.iter().enumerate().map(drawing).collect(),
         exposures: shown.iter().enumerate().map(exposure).collect(),
+        gone: vec![],
     }
 }
 
@@ -259,6 +260,32 @@ fn the_highest_number_carries_end_once() {
         let page = &pages(&settings, vec![layer("A", &shown)])[0];
         assert_eq!(words(page).iter().filter(|word| *word == "END").count(), 1, "{koma} koma");
     }
+}
+
+#[test]
+fn numbers_of_an_earlier_sheet_are_written_in_both_columns() {
+    let mut own = layer("A", &[('e', 10), ('g', 80), ('i', 3), ('e', 4)]);
+    let numbers = [("1", "1"), ("17za", "9a"), ("18", ""), ("20", "11")];
+    for (drawing, (number, genga)) in own.drawings.iter_mut().zip(numbers) {
+        drawing.numbers = Numbers { drawing: number.parse().ok(), genga: genga.parse().ok() };
+    }
+    let settings = XSheet { gauges: false, ..XSheet::default() };
+    let page = &pages(&settings, vec![own])[0];
+    let words = words(page);
+    let count = |word: &str| words.iter().filter(|own| *own == word).count();
+    for (word, times) in [
+        ("1", 3),
+        ("17za", 1),
+        ("(17za)", 1),
+        ("9a", 1),
+        ("(9a)", 1),
+        ("18", 1),
+        ("20", 1),
+        ("11", 1),
+    ] {
+        assert_eq!(count(word), times, "{word}");
+    }
+    assert_eq!(["2", "3", "4"].map(count), [1, 1, 0], "those of the legend alone");
 }
 
 #[test]

@@ -15,6 +15,7 @@ use crate::clip::Part;
 use crate::failure::Failure;
 use crate::folder::Folder;
 use crate::format_args::{FormatArgs, Formats, Overwrites};
+use crate::numbers::Numbering;
 use crate::results::{OWN, Outcome, Results};
 use crate::{files, paths};
 use genga::error::Error;
@@ -187,21 +188,26 @@ fn written(
     let motion = [("motion", Some(export.clip))];
     OWN.iter().try_for_each(|file| paths::spare(&motion, &folder.join(file)))?;
     formats.spare_edited(folder)?;
+    let place = Folder::look(folder, Overwrites::default());
+    let numbering = Numbering::new(export.breakdown.sheet, &place, &clip, false);
     let results = Results {
         name: &name,
         clip,
-        breakdown: export.breakdown,
+        breakdown: &export.breakdown.with_sheet(&numbering.sheet),
         recipe: export.recipe,
         edits: export.edits,
-        notes: export.notes.to_vec(),
+        renumbered: &numbering.drawings,
+        notes: export.notes.iter().cloned().chain(numbering.note.clone()).collect(),
         is_own_recipe: false,
         kept: None,
         tell: &tell,
     };
-    let Outcome { mut files, unmade, left, .. } =
-        results.write(&formats, Folder::look(folder, Overwrites::default()))?;
+    let Outcome { mut files, unmade, left, .. } = results.write(&formats, place)?;
     let unmade = unmade.into_iter().map(|warning| warning.message);
-    files.extend(unmade.chain(left.notes()).map(|note| format!("({note})")));
+    let counts = numbering.counts().map(|counts| format!("numbers as before: {counts}"));
+    let said = counts.into_iter().chain(numbering.note);
+    let notes = unmade.chain(left.notes()).chain(said);
+    files.extend(notes.map(|note| format!("({note})")));
     Ok(files)
 }
 

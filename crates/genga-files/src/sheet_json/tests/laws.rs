@@ -6,7 +6,8 @@ use super::*;
 use genga::edits::{CameraCue, Edits, Forbidden, Hold, LayerEdits, Move, Pin, Speech};
 use genga::exaggerate::{CartoonParts, Exaggerate};
 use genga::sheet::{
-    Blank, Drawing, Exposure, Feet, Layer, Reason, RootMotion, Sheet, SpokenLine, Why,
+    Blank, Drawing, Exposure, Feet, Gone, Layer, Numbers, Reason, RootMotion, Sheet, SpokenLine,
+    Why,
 };
 use genga::slate::Slate;
 use genga::time::{Clock, Frame, FrameRate, Span};
@@ -53,20 +54,31 @@ fn why() -> impl Strategy<Value = Why> {
 
 fn drawing() -> impl Strategy<Value = Drawing> {
     let role = prop::sample::select(vec![Role::Genga, Role::Inbetween, Role::End]);
-    (source(), role, why()).prop_map(|(source, role, why)| Drawing { source, role, why })
+    (source(), role, why()).prop_map(|(source, role, why)| Drawing::new(source, role, why))
 }
 
 fn layer() -> impl Strategy<Value = Layer> {
     let drawings = prop::collection::vec(drawing(), 0..6);
     let shown = prop::collection::vec((any::<prop::sample::Index>(), 1..200usize), 0..9);
-    (any::<String>(), drawings, shown).prop_map(|(name, drawings, shown)| {
-        let exposure = |(drawing, koma): (prop::sample::Index, usize)| {
-            (!drawings.is_empty())
-                .then(|| Exposure { drawing: drawing.index(drawings.len()), koma })
-        };
-        let exposures = shown.into_iter().filter_map(exposure).collect();
-        Layer { name, joints: vec![], drawings, exposures }
-    })
+    let is_named = any::<bool>();
+    (any::<String>(), drawings, shown, is_named).prop_map(
+        |(name, mut drawings, shown, is_named)| {
+            let number = |at: usize| format!("{at}a").parse().ok();
+            let mut gone = vec![];
+            if is_named {
+                for (at, drawing) in drawings.iter_mut().enumerate() {
+                    drawing.numbers = Numbers { drawing: number(at), genga: number(at) };
+                }
+                gone.push(Gone { drawing: 7_usize.into(), genga: number(7), place: 0.25 });
+            }
+            let exposure = |(drawing, koma): (prop::sample::Index, usize)| {
+                (!drawings.is_empty())
+                    .then(|| Exposure { drawing: drawing.index(drawings.len()), koma })
+            };
+            let exposures = shown.into_iter().filter_map(exposure).collect();
+            Layer { name, joints: vec![], drawings, exposures, gone }
+        },
+    )
 }
 
 fn range(from: u32, more: u16) -> Forbidden {

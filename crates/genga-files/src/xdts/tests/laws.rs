@@ -17,11 +17,8 @@ fn any_drawings() -> impl Strategy<Value = Vec<Drawing>> {
             _ if genga => Role::Genga,
             _ => Role::Inbetween,
         };
-        let drawing = |(at, genga)| Drawing {
-            source: Source::At(at as f64),
-            role: role(at, genga),
-            why: Why::default(),
-        };
+        let drawing =
+            |(at, genga)| Drawing::new(Source::At(at as f64), role(at, genga), Why::default());
         genga.into_iter().enumerate().map(drawing).collect()
     })
 }
@@ -52,7 +49,7 @@ fn any_layer() -> impl Strategy<Value = Layer> {
         };
         let exposure = |(drawing, koma)| Exposure { drawing, koma };
         let exposures = exposures.into_iter().map(exposure).collect();
-        Layer { name, joints: vec![], drawings, exposures }
+        Layer { name, joints: vec![], drawings, exposures, gone: vec![] }
     })
 }
 

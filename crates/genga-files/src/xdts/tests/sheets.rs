@@ -15,16 +15,15 @@ pub(crate) fn layer(name: &str, roles: &str, shown: &[(usize, usize)]) -> Layer 
         'g' => Role::Genga,
         _ => Role::Inbetween,
     };
-    let drawing = |(at, letter)| Drawing {
-        source: Source::At(10.0 + 3.0 * at as f64),
-        role: role(letter),
-        why: Why::default(),
+    let drawing = |(at, letter)| {
+        Drawing::new(Source::At(10.0 + 3.0 * at as f64), role(letter), Why::default())
     };
     Layer {
         name: name.into(),
         joints: vec![],
         drawings: roles.chars().enumerate().map(drawing).collect(),
         exposures: shown.iter().map(|&(drawing, koma)| Exposure { drawing, koma }).collect(),
+        gone: vec![],
     }
 }
 
