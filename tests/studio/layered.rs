@@ -58,8 +58,7 @@ fn a_key_goes_to_the_next_column_and_round() {
 fn a_genga_is_dragged_in_its_own_column() {
     let mut table = Table::with_limbs();
     table.tap(Modifiers::NONE, Key::A);
-    // The second genga stands on the koma of its frame.
-    table.tap(Modifiers::NONE, Key::ArrowDown);
+    // The next genga stands on the koma of its frame, in sight.
     table.tap(Modifiers::NONE, Key::ArrowDown);
     table.tap(Modifiers::NONE, Key::L);
     let [frame] = table.pins_of("B")[..] else { panic!("{:?}", table.edits()) };
