@@ -1,14 +1,19 @@
 //! Several columns: each has its own genga and pins, and one composite shows them all.
 
-use egui::{Key, Modifiers, pos2, vec2};
-use egui_kittest::kittest::{NodeT, Queryable};
+use std::sync::Arc;
 
-use crate::harness::Table;
+use egui::{Key, Modifiers, Theme, pos2, vec2};
+use egui_kittest::kittest::{NodeT, Queryable};
+use genga_studio::Language;
+
+use crate::harness::{Table, sample};
 
 impl Table {
-    /// Opens a kick in five columns.
+    /// Opens a kick in five columns, in a window so high that the sheet need not be scrolled.
     fn with_limbs() -> Self {
-        let mut table = Self::with_kick();
+        let window = ((1440, 1300), 1.0);
+        let mut table = Self::in_window(window, Arc::default(), Language::English, Theme::Light);
+        table.open(&sample("kick.bvh"));
         table.harness.state_mut().turn("layers", "limbs").unwrap();
         table.harness.run();
         table
@@ -58,7 +63,8 @@ fn a_key_goes_to_the_next_column_and_round() {
 fn a_genga_is_dragged_in_its_own_column() {
     let mut table = Table::with_limbs();
     table.tap(Modifiers::NONE, Key::A);
-    // The next genga stands on the koma of its frame, in sight.
+    // The second genga stands on the koma of its frame.
+    table.tap(Modifiers::NONE, Key::ArrowDown);
     table.tap(Modifiers::NONE, Key::ArrowDown);
     table.tap(Modifiers::NONE, Key::L);
     let [frame] = table.pins_of("B")[..] else { panic!("{:?}", table.edits()) };

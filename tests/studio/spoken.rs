@@ -125,6 +125,8 @@ fn what_is_spoken_is_saved_reopened_and_exported_as_the_program_does() {
     table.say(2, 6, "Aki", "Yah!");
     table.tap(Modifiers::COMMAND, Key::S);
     table.tap(Modifiers::COMMAND, Key::E);
+    table.harness.get_by_label("All formats").click();
+    table.harness.run();
     for format in ["xdts", "xsheet"] {
         table.harness.get_by_label(format).click();
         table.harness.run();

@@ -11,7 +11,7 @@ use super::goals;
 use super::leaving;
 use super::notice::{self, Message};
 use super::open_take::Results;
-use super::panels::Side;
+use super::panels::{self, Side};
 use super::passages;
 use super::strip::{self, Strip};
 use super::theme::Look;
@@ -173,15 +173,18 @@ impl Studio {
             let panel = Panel::bottom("transport").resizable(false).show_separator_line(false);
             panel.show(ui, |ui| transport::show(ui, &shown, &self.player, commands));
         }
-        let panel = Panel::bottom("strip").default_size(Strip::usual_height(window.y));
-        let high = strip::HEIGHTS;
-        let high = *high.start()..=(0.5 * window.y).clamp(*high.start(), *high.end());
-        let frame = Frame::NONE.inner_margin(Margin::symmetric(6, 2));
-        panel.size_range(high).resizable(true).frame(frame).show(ui, |ui| {
-            let seen = (&shown, self.difference.as_ref());
-            let by = (&self.viewport.orbit, &self.player);
-            turns.fill(ui, |ui| self.strip.show(ui, seen, by, commands));
-        });
+        // Curves need the room of the strip in a low window.
+        if !(panels::is_low(window) && is_there(Side::Curves)) {
+            let panel = Panel::bottom("strip").default_size(Strip::usual_height(window.y));
+            let high = strip::HEIGHTS;
+            let high = *high.start()..=(0.5 * window.y).clamp(*high.start(), *high.end());
+            let frame = Frame::NONE.inner_margin(Margin::symmetric(6, 2));
+            panel.size_range(high).resizable(true).frame(frame).show(ui, |ui| {
+                let seen = (&shown, self.difference.as_ref());
+                let by = (&self.viewport.orbit, &self.player);
+                turns.fill(ui, |ui| self.strip.show(ui, seen, by, commands));
+            });
+        }
         let frame = Frame::central_panel(ui.style()).inner_margin(0);
         CentralPanel::default().frame(frame).show(ui, |ui| {
             turns.fill(ui, |ui| self.viewport.show(ui, &shown, commands));
