@@ -52,9 +52,9 @@ static DESTINATIONS: [Destination; 8] = [
         formats: &["ae", "images"],
         writes: "time remapping, numbered pictures",
         writes_japanese: "タイムリマップ、番号付きの絵",
-        next: "In After Effects: import the pictures at the rate of the sheet, then copy the text of ae.txt and paste it \
-               on the layer.",
-        next_japanese: "After Effects にシートのレートで絵を読み込み、ae.txt の中身をコピーしてレイヤーに貼り付ける。",
+        next: "In After Effects: import the pictures at the rate of the sheet, then copy the text of ae/A.txt and paste \
+               it on the layer.",
+        next_japanese: "After Effects にシートのレートで絵を読み込み、ae/A.txt の中身をコピーしてレイヤーに貼り付ける。",
     },
     Destination {
         english: "Blender",
@@ -98,8 +98,8 @@ static DESTINATIONS: [Destination; 8] = [
         formats: &["flipbook", "contact"],
         writes: "a page to step through, a picture of all genga",
         writes_japanese: "コマ送りできるページ、原画の一覧",
-        next: "Send the _flipbook.html: it opens in any browser and needs nothing else.",
-        next_japanese: "_flipbook.html を送る。どのブラウザーでも開き、ほかに何もいらない。",
+        next: "Send flipbook.html: it opens in any browser and needs nothing else.",
+        next_japanese: "flipbook.html を送る。どのブラウザーでも開き、ほかに何もいらない。",
     },
 ];
 
@@ -112,7 +112,7 @@ impl Destination {
 
     /// Whether an order asks for this and nothing else.
     fn is_of(&self, order: &Order) -> bool {
-        order.formats == self.ordered()
+        !order.formats.is_empty() && order.formats == self.ordered()
     }
 
     /// The next step there, in English and in Japanese.
@@ -173,11 +173,11 @@ mod tests {
 
     #[test]
     fn each_destination_is_told_from_the_others_by_its_formats() {
-        for destination in &DESTINATIONS {
+        // A build without pictures cannot write for all.
+        for destination in DESTINATIONS.iter().filter(|own| !own.ordered().is_empty()) {
             let mut order = Order::remembered("\n\n", PathBuf::new());
             assert_eq!(of(&order), None, "nothing is for nobody");
             order.formats = destination.ordered();
-            assert!(!order.formats.is_empty(), "{}", destination.english);
             let has_all = order.formats.len() == destination.formats.len();
             assert!(!has_all || of(&order) == Some(destination), "{}", destination.english);
             order.toggle("sts", true);
