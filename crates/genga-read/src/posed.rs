@@ -66,6 +66,9 @@ pub(super) struct Posed {
     local: Vec<Stand>,
     /// Index of each bone in the list from which it was taken.
     from: Vec<usize>,
+    /// Whether each bone leaves its place on its parent, and whether it only marks its end.
+    moving: Vec<bool>,
+    tips: Vec<bool>,
     warnings: Vec<Warning>,
 }
 
@@ -105,7 +108,12 @@ impl Posed {
         }
         let bones = select(bones, &kept);
         let from = (0..kept.len()).filter(|bone| kept[*bone]).collect();
-        Ok(Self { bones, local, from, warnings })
+        let (moving, tips) = (Vec::new(), Vec::new());
+        let mut posed = Self { bones, local, from, moving, tips, warnings };
+        let (count, size) = (posed.bones.len(), posed.size());
+        posed.moving = (0..count).map(|bone| posed.moves(bone, size)).collect();
+        posed.tips = (0..count).map(|bone| posed.is_tip(bone)).collect();
+        Ok(posed)
     }
 
     /// Builds the clip, and returns the warnings about its joints.
@@ -114,9 +122,8 @@ impl Posed {
     /// [`Error::Clip`] if a value is not finite.
     pub(super) fn clip(self, rate: FrameRate) -> Result<(Clip, Vec<Warning>), Error> {
         let count = self.bones.len();
-        let (moves, tips) = self.moves_and_tips();
-        let skeleton = self.skeleton(&moves, &tips);
-        let joints: Vec<usize> = (0..count).filter(|bone| !tips[*bone]).collect();
+        let skeleton = self.skeleton();
+        let joints: Vec<usize> = (0..count).filter(|bone| !self.tips[*bone]).collect();
         let (width, frames) = (skeleton.channels(), self.local.len() / count.max(1));
         let mut values = vec![0.0; width * frames];
         for (frame, stands) in self.local.chunks_exact(count).enumerate() {
@@ -134,17 +141,8 @@ impl Posed {
     }
 
     /// Returns the index of each joint of the clip in the list of bones that was given.
-    pub(super) fn joints(&self) -> Vec<usize> {
-        let (_, tips) = self.moves_and_tips();
-        self.from.iter().zip(tips).filter(|(_, is_tip)| !is_tip).map(|(from, _)| *from).collect()
-    }
-
-    /// Finds the bones that leave their place on their parent, and those that only mark its end.
-    fn moves_and_tips(&self) -> (Vec<bool>, Vec<bool>) {
-        let (count, size) = (self.bones.len(), self.size());
-        let moves: Vec<bool> = (0..count).map(|bone| self.moves(bone, size)).collect();
-        let tips = (0..count).map(|bone| self.is_tip(bone, &moves)).collect();
-        (moves, tips)
+    pub(super) fn joints(&self) -> impl Iterator<Item = usize> {
+        self.from.iter().zip(&self.tips).filter(|(_, is_tip)| !**is_tip).map(|(from, _)| *from)
     }
 
     /// Total length of the bones in the first frame.
@@ -164,7 +162,7 @@ impl Posed {
 
     /// Whether a bone only marks the end of its parent: it is named like one, has no children and never
     /// moves.
-    fn is_tip(&self, bone: usize, moves: &[bool]) -> bool {
+    fn is_tip(&self, bone: usize) -> bool {
         let Bone { name, parent, .. } = &self.bones[bone];
         let called = ["end", "leaf", "nub", "tip", "site"];
         let name = name.to_lowercase();
@@ -177,29 +175,29 @@ impl Posed {
             stands.any(|stand| stand.turn.dot(first).abs() < 1.0 - 1e-9)
         };
         parent.is_some()
-            && !moves[bone]
+            && !self.moving[bone]
             && is_called
             && self.bones.iter().all(|other| other.parent != Some(bone))
             && !turns()
     }
 
-    fn skeleton(&self, moves: &[bool], tips: &[bool]) -> Skeleton {
+    fn skeleton(&self) -> Skeleton {
         let mut skeleton = Skeleton::default();
         let mut joints = vec![0; self.bones.len()];
         let mut first_channel = 0;
         for (at, bone) in self.bones.iter().enumerate() {
             let rest = bone.parent.map_or(DVec3::ZERO, |parent| self.bones[parent].rest.place);
-            let here = self.local.get(at).filter(|_| !moves[at]);
+            let here = self.local.get(at).filter(|_| !self.moving[at]);
             let offset = here.map_or(bone.rest.place - rest, |stand| stand.place);
             let parent = bone.parent.map(|parent| joints[parent]);
-            if let (true, Some(parent)) = (tips[at], parent) {
+            if let (true, Some(parent)) = (self.tips[at], parent) {
                 let parent: &mut Joint = &mut skeleton.joints[parent];
                 parent.end_sites.push(EndSite { name: bone.name.clone(), offset });
                 continue;
             }
             joints[at] = skeleton.len();
             let positions = [Axis::X, Axis::Y, Axis::Z].map(Channel::Position);
-            let positions = positions.into_iter().filter(|_| moves[at]);
+            let positions = positions.into_iter().filter(|_| self.moving[at]);
             let rotations = [Axis::Z, Axis::X, Axis::Y].map(Channel::Rotation);
             let channels: Vec<Channel> = positions.chain(rotations).collect();
             let (name, parent) = (bone.name.clone(), parent.map(JointId));

@@ -1,6 +1,6 @@
 //! Keys of what the timing does not touch (体以外のキー), and the values between them.
 
-use glam::DQuat;
+use glam::{DQuat, DVec4};
 
 /// What is between two keys.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -29,9 +29,14 @@ pub struct Track {
 }
 
 /// The row of a cubic key that holds its value; the slopes lie around it.
-const VALUE: usize = 1;
+pub(crate) const VALUE: usize = 1;
 
 impl Track {
+    /// Number of rows of a key.
+    pub(crate) fn rows(&self) -> usize {
+        if self.between == Between::Cubic { 3 } else { 1 }
+    }
+
     /// Returns a row of a key: of a cubic one the slope towards it (0), its value (1) or the slope from it (2); the only
     /// row of any other.
     pub fn row(&self, key: usize, row: usize) -> &[f64] {
@@ -50,10 +55,17 @@ impl Track {
     ///
     /// If there is no key.
     pub fn write_at(&self, place: f64, value: &mut [f64]) {
-        let Some((key, share)) = self.find(place) else {
-            let end = if place < self.places[0] { 0 } else { self.places.len() - 1 };
-            return value.copy_from_slice(self.value(end));
-        };
+        match self.find(place) {
+            Some((key, share)) => self.write_between(key, share, value),
+            None => {
+                let end = if place < self.places[0] { 0 } else { self.places.len() - 1 };
+                value.copy_from_slice(self.value(end));
+            }
+        }
+    }
+
+    /// Writes the value after a share of the way from a key to the next.
+    pub(crate) fn write_between(&self, key: usize, share: f64, value: &mut [f64]) {
         let (from, to) = (self.value(key), self.value(key + 1));
         match self.between {
             Between::Step => value.copy_from_slice(from),
@@ -65,9 +77,9 @@ impl Track {
                 let (two, three) = (share * share, share * share * share);
                 for (at, value) in value.iter_mut().enumerate() {
                     *value = (2.0 * three - 3.0 * two + 1.0) * from[at]
-                        + (three - 2.0 * two + share) * length * out[at]
+                        + (three - 2.0 * two + share) * (out[at] * length)
                         + (3.0 * two - 2.0 * three) * to[at]
-                        + (three - two) * length * into[at];
+                        + (three - two) * (into[at] * length);
                 }
             }
         }
@@ -108,8 +120,9 @@ fn mix(from: &[f64], to: &[f64], share: f64, value: &mut [f64]) {
 }
 
 fn arc(from: &[f64], to: &[f64], share: f64, value: &mut [f64]) {
+    // A quaternion of length 0 is no rotation.
     let rotation = |row: &[f64]| match row {
-        [x, y, z, w] => DQuat::from_xyzw(*x, *y, *z, *w).normalize(),
+        [x, y, z, w] => DQuat::from_vec4(DVec4::new(*x, *y, *z, *w).normalize_or(DVec4::W)),
         _ => DQuat::IDENTITY,
     };
     let turned = rotation(from).slerp(rotation(to), share).to_array();

@@ -8,7 +8,7 @@ use glam::{DAffine3, DVec3};
 use serde_json::{Map, Value};
 
 use super::buffers::Buffers;
-use super::curve::Curve;
+use super::curve::{Curve, Room};
 use super::document::{Document, Node};
 use crate::reading::{Found, counted, join_names};
 use crate::track::Track;
@@ -89,7 +89,7 @@ impl GltfScene {
     pub(super) fn new(
         document: &Document,
         buffers: &mut Buffers<'_>,
-        (bytes, body): (&[u8], &Body<'_>),
+        (bytes, body, room): (&[u8], &Body<'_>, Room),
         played: Played,
     ) -> Result<Option<Self>, Error> {
         let kept = kept(document, body, played);
@@ -110,7 +110,7 @@ impl GltfScene {
             scene.nodes.push(GltfNode { json, carrier: body.carrier(node, &places) });
         }
         (scene.parts, scene.bytes) = parts.finish();
-        scene.tracks = tracks(document, buffers, &places, played)?;
+        scene.tracks = tracks(document, buffers, (&places, room), played)?;
         let has_shape = |track: &GltfTrack| {
             track.path != "weights" || scene.nodes[track.node].json.contains_key("mesh")
         };
@@ -217,7 +217,7 @@ fn named(node: &Node, at: usize) -> String {
 fn tracks(
     document: &Document,
     buffers: &mut Buffers<'_>,
-    places: &BTreeMap<usize, usize>,
+    (places, mut room): (&BTreeMap<usize, usize>, Room),
     played: Played,
 ) -> Result<Vec<GltfTrack>, Error> {
     let animation = &document.animations[played.animation];
@@ -236,7 +236,8 @@ fn tracks(
             _ => Some(3),
         };
         let curve = Curve::read(document, buffers, sampler, width, &part)?;
-        let track = curve.track(played.begin, played.fps, *path == "rotation");
+        room.take(&curve, &part)?;
+        let track = curve.track(played.begin, played.fps);
         tracks.push(GltfTrack { node: *node, path, track });
     }
     Ok(tracks)

@@ -7,7 +7,7 @@ use glam::DAffine3;
 
 use super::buffers::Buffers;
 use super::camera::Cameras;
-use super::curve::Curve;
+use super::curve::{Curve, Room};
 use super::document::{Animation, Document, placed};
 use super::kept::{Body, GltfScene, Played};
 use super::wrong;
@@ -78,13 +78,14 @@ pub(crate) fn read(given: &Given<'_>, options: &Options) -> Result<Read, Error> 
     let posed = Posed::new(bones, frames, options, stand);
     let posed = posed.map_err(|error| of_take(error, at, name))?;
     let body = Body {
-        joints: posed.joints().into_iter().map(|bone| joints[bone].0).collect(),
+        joints: posed.joints().map(|bone| joints[bone].0).collect(),
         order: &order,
         parents: &parents,
         world: &world,
     };
     let played = Played { animation: at, begin, fps: rate.fps() };
-    let scene = GltfScene::new(&document, &mut buffers, (given.bytes, &body), played)?;
+    let kept = (given.bytes, &body, Room::new(options));
+    let scene = GltfScene::new(&document, &mut buffers, kept, played)?;
     let (clip, named) = posed.clip(rate).map_err(|error| of_take(error, at, name))?;
     let clip = clip.with_declared(Declared::y_up(1.0));
     let finer = rates::finer(times, begin, rate).filter(|_| options.fps.is_none());
@@ -198,7 +199,7 @@ impl Motion {
         let animation = &document.animations[at];
         let mut motion = Self::default();
         motion.nodes.resize_with(document.nodes.len(), Moved::default);
-        let mut numbers = 0;
+        let mut room = Room::new(options);
         for (channel_at, channel) in animation.channels.iter().enumerate() {
             let part = format!("animations[{at}].channels[{channel_at}]");
             let Some(node) = channel.target.node else { continue };
@@ -216,11 +217,7 @@ impl Motion {
             };
             let sampler_part = format!("animations[{at}].samplers[{}]", channel.sampler);
             let curve = Curve::read(document, buffers, sampler, Some(width), &sampler_part)?;
-            numbers += curve.numbers();
-            if numbers as u64 > options.stream.bytes / 8 {
-                let message = "its curves have more numbers than are taken into memory; --memory GIB allows more";
-                return Err(wrong(part, message));
-            }
+            room.take(&curve, &part)?;
             *place = Some(curve);
         }
         Ok(motion)
@@ -232,15 +229,14 @@ impl Motion {
 
     /// Times of the keys, sorted and unique.
     fn times(&self) -> Vec<f64> {
-        let mut times: Vec<f64> =
-            self.curves().flat_map(|curve| curve.times.iter().copied()).collect();
+        let mut times: Vec<f64> = self.curves().flat_map(Curve::times).copied().collect();
         times.sort_by(f64::total_cmp);
         times.dedup();
         times
     }
 
     fn take(&self, name: String) -> Take {
-        let ends = |curve: &Curve| (curve.times[0], curve.times[curve.times.len() - 1]);
+        let ends = |curve: &Curve| (curve.times()[0], curve.times()[curve.times().len() - 1]);
         let span = self.curves().map(ends).reduce(|all, own| (all.0.min(own.0), all.1.max(own.1)));
         let seconds = span.map_or(0.0, |(begin, end)| end - begin);
         Take { name, seconds, moves: self.curves().any(Curve::moves) }

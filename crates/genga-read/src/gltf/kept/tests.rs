@@ -115,3 +115,17 @@ fn a_camera_that_moves_is_no_joint_of_a_body_without_skins() {
     assert!(clip.skeleton().joints.iter().all(|joint| joint.name != "eye"));
     assert!(clip.beside().unwrap().camera.as_ref().unwrap().moves());
 }
+
+#[test]
+fn one_sampler_that_many_channels_name_does_not_fill_the_memory() {
+    let mut many = stage();
+    let weights = many.add("SCALAR", 1, &[0.0; 9000]);
+    (0..20).for_each(|_| many.play(5, "weights", "LINEAR", weights));
+    let limited = |bytes: u64| {
+        let stream = genga::motion::StreamLimit { bytes };
+        Options { stream, ..Options::default() }.read(&many.glb())
+    };
+    let error = limited(1 << 20).unwrap_err().to_string();
+    assert!(error.contains("more numbers than are taken into memory"), "{error}");
+    assert!(limited(1 << 21).is_ok());
+}
