@@ -51,7 +51,7 @@ pub use composite::layer_of;
 pub(crate) use composite::travellers;
 pub use composite::{Composite, CompositePoser, CompositeRows};
 pub use laid::{first_round, laid, middle_round, played_out};
-pub use seen::{Camera, Eye, Screen, SeenFrom, camera_work};
+pub use seen::{Camera, Eye, Filmed, Screen, SeenFrom};
 pub(crate) use stream::GIB;
 pub use stream::StreamLimit;
 pub use stream::bytes_in_words;

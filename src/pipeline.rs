@@ -20,7 +20,7 @@ use crate::error::Error;
 use crate::keys::{
     ActionFinder, Actions, BodyTurns, Key, LayerJoints, LayerKeys, Layers, Reconstruction,
 };
-use crate::motion::{Clip, Screen, SeenFrom, camera_work};
+use crate::motion::{Clip, Filmed, Screen, SeenFrom};
 use crate::recipe::Recipe;
 use crate::sheet::{CameraWork, Feet, RootMotion, Sheet, SpokenLine};
 use crate::signal::{Signals, Spectrum, Speed, Turn};
@@ -543,6 +543,7 @@ impl Engine {
                 (spaced.clone(), with_holds(&omitted.layer, spaced, holds, *clock))
             };
             let (spaced, layers) = layers.into_iter().map(held).unzip();
+            let filmed = Filmed::new(&laid.value().clip);
             let sheet = |layers| {
                 let sheet = Sheet { root: *root, feet: *feet, ..Sheet::new(*clock, layers) };
                 let length = sheet.length();
@@ -552,8 +553,8 @@ impl Engine {
                 let camera = cues.iter().filter_map(|cue| cue.on_sheet(*clock, *last, length));
                 let mut camera: Vec<CameraWork> = camera.collect();
                 camera.sort_by_key(|work| work.begin);
-                let camera =
-                    CameraWork::with_guesses(camera, camera_work(&laid.value().clip, &sheet));
+                let guesses = filmed.map_or_else(Vec::new, |filmed| filmed.work(&sheet));
+                let camera = CameraWork::with_guesses(camera, guesses);
                 Sheet { lines, camera, slate: slate.clone(), ..sheet }.placed(*at, *end)
             };
             Ok([sheet(spaced)?, sheet(layers)?])

@@ -6,6 +6,6 @@ mod screen;
 pub mod view;
 
 pub use camera::Camera;
-pub use camera_work::camera_work;
+pub use camera_work::Filmed;
 pub use screen::looks;
 pub use screen::{Eye, Screen, SeenFrom};

@@ -6,16 +6,20 @@ use super::{Drawing, Layer, Reason, Sheet};
 use crate::time::Clock;
 
 impl Sheet {
-    /// Returns the place in the source that each koma shows: that of the layer with the most koma, of several the first.
-    /// Blank koma do not count. [`Layer::source_places`] says how.
+    /// Returns the layer whose time is the sheet's: that with the most koma, of several the first. `None` without layers.
+    pub fn longest_layer(&self) -> Option<&Layer> {
+        // The last of equal elements wins, so the order is reversed.
+        self.layers.iter().rev().max_by_key(|layer| layer.length())
+    }
+
+    /// Returns the place in the source that each koma of the [longest layer](Self::longest_layer) shows. Blank koma do not
+    /// count. [`Layer::source_places`] says how.
     ///
     /// # Panics
     ///
     /// If that layer shows a drawing that it does not have.
     pub fn source_places(&self) -> Vec<f64> {
-        // The last of equal elements wins, so the order is reversed.
-        let longest = self.layers.iter().rev().max_by_key(|layer| layer.length());
-        longest.map_or_else(Vec::new, |layer| layer.source_places(self.clock))
+        self.longest_layer().map_or_else(Vec::new, |layer| layer.source_places(self.clock))
     }
 }
 

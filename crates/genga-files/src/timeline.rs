@@ -159,8 +159,7 @@ fn is_same(a: f64, b: f64) -> bool {
 
 /// The drawings on screen of the layer that the time of a sheet is of.
 fn holds(sheet: &Sheet) -> Vec<Hold> {
-    let longest = sheet.layers.iter().rev().max_by_key(|layer| layer.length());
-    let Some(layer) = longest else { return Vec::new() };
+    let Some(layer) = sheet.longest_layer() else { return Vec::new() };
     let hold = |(begin, shown): (usize, Exposure)| Hold {
         begin: sheet.blank.pose_begins(begin),
         end: sheet.blank.pose_ends(begin + shown.koma, layer.length()),

@@ -10,7 +10,7 @@ use crate::drawings::{beginning, drawn_poses, seconds_and_koma, shown_as, slidin
 use crate::figure::{Figure, FigureBody};
 use crate::points::Posing;
 use crate::shared;
-use crate::side_by_side::{PlayedOut, Reel, SideBySide, longest, runs};
+use crate::side_by_side::{PlayedOut, Reel, SideBySide, differences, longest, runs};
 use genga::error::Error;
 use genga::knob::{Knobs, knobs};
 use genga::motion::Camera;
@@ -129,7 +129,7 @@ impl FlipBook {
         let reels = played.iter().map(PlayedOut::reel).collect::<Result<Vec<_>, _>>()?;
         let layers: Vec<_> =
             reels.iter().map(|reel| beginning(reel.composite.layer(), self.most)).collect();
-        let take = browser::json_in_script(&self.take((cut, shown), &reels, &layers)?)?;
+        let take = browser::json_in_script(&self.take((cut, shown), &reels, &layers))?;
         let filled = [
             ("{{title}}", escaped(cut)),
             ("{{look}}", LOOK.to_owned()),
@@ -144,7 +144,7 @@ impl FlipBook {
         (cut, shown): (&'a str, &SideBySide<'a>),
         reels: &'a [Reel<'_>],
         layers: &'a [Cow<'_, Layer>],
-    ) -> Result<Take<'a>, Error> {
+    ) -> Take<'a> {
         let clip = reels[0].composite.clip();
         let koma = longest(reels).min(self.most);
         let clock = reels[0].sheet.clock;
@@ -158,9 +158,9 @@ impl FlipBook {
             SideBySide::Versions(versions) => versions.map(|version| Some(version.name)),
         };
         let sheets = reels.iter().zip(layers).zip(names);
-        let differences = shown.differences()?;
+        let differences = differences(reels);
         let whole = names[0].is_none();
-        Ok(Take {
+        Take {
             cut,
             koma_rate: clock.koma_rate,
             koma,
@@ -175,7 +175,7 @@ impl FlipBook {
                 .map(|((reel, layer), name)| PageSheet::new(name, reel, layer, (&figure, &steps)))
                 .collect(),
             differences: runs(&differences[..koma.min(differences.len())]).collect(),
-        })
+        }
     }
 }
 

@@ -91,23 +91,9 @@ impl<'a> SideBySide<'a> {
     /// # Errors
     /// [`Error::Sheet`] or [`Error::Picture`] if a sheet has nothing to show.
     pub fn differences(&self) -> Result<Vec<bool>, Error> {
-        let Self::Versions(versions) = self else { return Ok(Vec::new()) };
-        let played = versions.map(|version| PlayedOut::new(version.clip, version.sheet));
-        let [one, other] = played;
-        let (one, other) = (one?, other?);
-        let reels = [one.reel()?, other.reel()?];
-        let apart = APART * Figure::new(&one.clip, FigureBody::Sticks).height;
-        let mut showing = reels.each_ref().map(|reel| Showing::new(&reel.composite, &[]));
-        let differ = |koma: usize| {
-            let [one, other] = [0, 1].map(|at| {
-                reels[at].at(koma).map(|shown| showing[at].points(shown.drawing, shown.koma))
-            });
-            match (one, other) {
-                (Some(one), Some(other)) => are_apart(&one, &other, apart),
-                (one, other) => one.is_some() != other.is_some(),
-            }
-        };
-        Ok((0..longest(&reels)).map(differ).collect())
+        let played = self.played_out()?;
+        let reels = played.iter().map(PlayedOut::reel).collect::<Result<Vec<_>, _>>()?;
+        Ok(differences(&reels))
     }
 
     fn sheets(&self) -> impl Iterator<Item = (&'a Clip, &'a Sheet)> + use<'a> {
@@ -127,6 +113,23 @@ impl<'a> SideBySide<'a> {
     pub(crate) fn played_out(&self) -> Result<Vec<PlayedOut<'a>>, Error> {
         self.sheets().map(|(clip, sheet)| PlayedOut::new(clip, sheet)).collect()
     }
+}
+
+/// Returns, for each koma, whether two reels show different drawings; empty for one. See [`SideBySide::differences`].
+pub(crate) fn differences(reels: &[Reel<'_>]) -> Vec<bool> {
+    let [one, other] = reels else { return Vec::new() };
+    let apart = APART * Figure::new(one.composite.clip(), FigureBody::Sticks).height;
+    let mut showing = [one, other].map(|reel| Showing::new(&reel.composite, &[]));
+    let differ = |koma: usize| {
+        let [one, other] = [0, 1].map(|at| {
+            reels[at].at(koma).map(|shown| showing[at].points(shown.drawing, shown.koma))
+        });
+        match (one, other) {
+            (Some(one), Some(other)) => are_apart(&one, &other, apart),
+            (one, other) => one.is_some() != other.is_some(),
+        }
+    };
+    (0..longest(reels)).map(differ).collect()
 }
 
 /// Number of koma of the longest of some reels.

@@ -4,7 +4,7 @@ use glam::{DQuat, DVec3};
 
 use super::looks;
 use crate::maths;
-use crate::motion::{CameraPose, Clip, Lens};
+use crate::motion::{CameraPath, CameraPose, Clip, Lens};
 use crate::sheet::{CameraWork, Sheet};
 
 /// How far the camera may stray from an even movement, as a share of the picture's height. On paper, where the picture is
@@ -33,30 +33,43 @@ const EDGE: f64 = 8.0 / 9.0;
 /// What changes of a picture, in heights: turned sideways and up, slid sideways and up, enlarged, rolled.
 type Change = [f64; 6];
 
-/// Guesses the camera work of a sheet from the way of the camera that the clip's file has, with the koma of the sheet
-/// without blank ones, sorted. Empty without a camera, for a still one, and for a sheet that repeats, since a camera goes
-/// on where the drawings begin again.
-///
-/// A camera that turns, or slides sideways or up, is a `PAN`. One that comes nearer, or whose lens narrows, is a `T.U`;
-/// one that goes back or widens a `T.B`; one that rolls `回転`. Movements at once are joined by ` + `. Shares of the
-/// picture are measured at the distance of the body's middle.
-pub fn camera_work(clip: &Clip, sheet: &Sheet) -> Vec<CameraWork> {
-    let path = clip.beside().and_then(|beside| beside.camera.as_ref());
-    let Some(path) = path.filter(|path| path.moves() && sheet.repeat.is_none()) else {
-        return Vec::new();
-    };
-    let middle = middle(clip);
-    let shown = sheet.source_places();
-    let poses: Vec<CameraPose> = shown.iter().filter_map(|place| path.at(*place)).collect();
-    let changes: Vec<Change> =
-        poses.windows(2).map(|pair| change(&pair[0], &pair[1], middle)).collect();
-    let mut work = Vec::new();
-    let mut from = 0;
-    for shot in changes.split(|change| length(change) > CUT) {
-        work.extend(of_shot(shot, from));
-        from += shot.len() + 1;
+/// The camera of a clip's file, if it moves (カメラ).
+#[derive(Debug, Clone, Copy)]
+pub struct Filmed<'a> {
+    path: &'a CameraPath,
+    /// The middle of the body, at whose distance shares of the picture are measured.
+    middle: DVec3,
+}
+
+impl<'a> Filmed<'a> {
+    /// Looks at the camera that the clip's file has; `None` without one, or for a still one.
+    pub fn new(clip: &'a Clip) -> Option<Self> {
+        let path = clip.beside()?.camera.as_ref().filter(|path| path.moves())?;
+        Some(Self { path, middle: middle(clip) })
     }
-    work
+
+    /// Guesses the camera work of a sheet from the way of the camera, with the koma of the sheet without blank ones, sorted.
+    /// Empty for a sheet that repeats, since a camera goes on where the drawings begin again.
+    ///
+    /// A camera that turns, or slides sideways or up, is a `PAN`. One that comes nearer, or whose lens narrows, is a `T.U`;
+    /// one that goes back or widens a `T.B`; one that rolls `回転`. Movements at once are joined by ` + `.
+    pub fn work(&self, sheet: &Sheet) -> Vec<CameraWork> {
+        if sheet.repeat.is_some() {
+            return Vec::new();
+        }
+        let shown = sheet.source_places();
+        let poses: Vec<CameraPose> =
+            shown.iter().filter_map(|place| self.path.at(*place)).collect();
+        let changes: Vec<Change> =
+            poses.windows(2).map(|pair| change(&pair[0], &pair[1], self.middle)).collect();
+        let mut work = Vec::new();
+        let mut from = 0;
+        for shot in changes.split(|change| length(change) > CUT) {
+            work.extend(of_shot(shot, from));
+            from += shot.len() + 1;
+        }
+        work
+    }
 }
 
 /// The mean position of all joints over the whole clip.

@@ -10,7 +10,7 @@ use crate::figure::Figure;
 use crate::paper_point::Point;
 use crate::pixels::{Digits, Pixels};
 use crate::points::{Posing, Showing};
-use crate::side_by_side::{Reel, SideBySide};
+use crate::side_by_side::{Reel, SideBySide, differences};
 use crate::stage::{Bounds, Stage};
 use crate::style;
 use genga::error::Error;
@@ -118,7 +118,7 @@ impl Scene {
         let (stage, follows) = stage(preview, reels, figure, size);
         let at = |panel: f64| (size.0 * (0.25 + 0.5 * panel), size.1 - BOTTOM);
         let stages = [0.0, 1.0].map(|panel| Stage { at: at(panel), ..stage.clone() });
-        let differences = shown.differences()?;
+        let differences = differences(reels);
         let backdrop =
             Backdrop { cut, shown, reels, differences: &differences, koma, size, follows };
         let bars = backdrop.room();

@@ -29,6 +29,10 @@ fn pose(place: DVec3, degrees: [f64; 3], height: f64) -> CameraPose {
     CameraPose { place, turn, lens: Lens::Perspective(height) }
 }
 
+fn camera_work(clip: &Clip, sheet: &Sheet) -> Vec<CameraWork> {
+    Filmed::new(clip).map_or_else(Vec::new, |filmed| filmed.work(sheet))
+}
+
 /// The camera work on a sheet on ones: first koma, koma after the last, words.
 fn work(frames: usize, pose: impl Fn(f64) -> CameraPose) -> Vec<(usize, usize, String)> {
     let clip = clip(frames, pose);
