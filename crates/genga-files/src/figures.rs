@@ -84,15 +84,16 @@ fn png(svg: &str) -> Result<Vec<u8>, Error> {
     genga_plot::png_from_svg(svg, 1.0)
 }
 
-/// Returns a warning if pages are asked for in pixels and this machine has no fonts for their words.
+/// Warns if pages are asked for in pixels and this machine has no fonts for their words.
 #[cfg(feature = "pictures")]
-pub(super) fn font_note(settings: &Settings) -> Option<Warning> {
-    settings.figures.png.then(genga_plot::font_note).flatten()
+pub(super) fn font_notes(_: &Cut<'_>, settings: &Settings) -> Result<Vec<Warning>, Error> {
+    let note = settings.figures.png.then(genga_plot::font_note).flatten();
+    Ok(note.into_iter().collect())
 }
 
 #[cfg(not(feature = "pictures"))]
-pub(super) fn font_note(_: &Settings) -> Option<Warning> {
-    None
+pub(super) fn font_notes(_: &Cut<'_>, _: &Settings) -> Result<Vec<Warning>, Error> {
+    Ok(Vec::new())
 }
 
 #[cfg(not(feature = "pictures"))]

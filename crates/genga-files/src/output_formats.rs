@@ -295,7 +295,7 @@ pub const FORMATS: &[Format] = &[
         make: figures::strip,
         notes: |cut, settings| {
             let mut notes = shortened("strip", settings.strip.most, drawn(cut.sheet));
-            notes.extend(figures::font_note(settings));
+            notes.extend(figures::font_notes(cut, settings)?);
             Ok(notes)
         },
         ..PLAIN
@@ -308,7 +308,7 @@ pub const FORMATS: &[Format] = &[
         files: &["contact.svg"],
         is_numbered: true,
         make: figures::contact,
-        notes: |_, settings| Ok(figures::font_note(settings).into_iter().collect()),
+        notes: figures::font_notes,
         ..PLAIN
     },
     Format {
@@ -319,7 +319,7 @@ pub const FORMATS: &[Format] = &[
         files: &["onion.svg"],
         is_numbered: true,
         make: figures::onion,
-        notes: |_, settings| Ok(figures::font_note(settings).into_iter().collect()),
+        notes: figures::font_notes,
         ..PLAIN
     },
     Format {
