@@ -10,6 +10,7 @@ use clap::{Arg, Args, Command, ValueEnum};
 use super::corrections::assignment;
 use super::failure::Failure;
 use super::headings::FILES;
+use super::sheets::SHEET;
 use super::staging::Bundle;
 use super::{files, paths};
 use genga::error::{Error, Warning};
@@ -183,9 +184,6 @@ pub(super) fn long_help() -> String {
 
 /// Most file names listed in full; of more, only the first and the last are named.
 const MOST_NAMES: usize = 3;
-
-/// File name of the sheet, which a person may have edited.
-pub(super) const SHEET: &str = "sheet.json";
 
 /// Callback before each file is written. An error stops the writing.
 pub(super) type Tell<'a> = &'a dyn Fn(&str) -> Result<(), Error>;

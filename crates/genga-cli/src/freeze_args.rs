@@ -3,6 +3,7 @@
 use super::console::counted;
 use super::corrections::Corrections;
 use super::failure::Failure;
+use super::sheets::SHEET;
 use super::{files, paths, pin_args};
 use genga::edits::Edits;
 use genga::error::Error;
@@ -11,9 +12,6 @@ use genga::recipe::Recipe;
 use genga::sheet::Role;
 use genga::time::Frame;
 use genga_files::{pins_from_sheet, sheet_json};
-
-/// File name of the sheet in a results folder.
-const SHEET: &str = "sheet.json";
 
 /// Freezes the genga of the given sheet, layer by layer, and returns a sentence about it.
 pub(super) fn freeze(

@@ -2,7 +2,7 @@
 
 use super::files;
 use super::folder::Folder;
-use super::format_args::SHEET;
+use super::sheets::SHEET;
 use genga::sheet::{Layer, Renumbered, Sheet};
 use genga_files::{ClipMark, Run, sheet_json};
 

@@ -8,8 +8,8 @@ use super::{files, into_args};
 use genga_files::sheet_json::{self, SheetFile};
 use genga_files::xdts;
 
-/// File name of the sheet in a results folder.
-const SHEET: &str = "sheet.json";
+/// File name of the sheet in a results folder, which a person may have edited.
+pub(super) const SHEET: &str = "sheet.json";
 
 /// Returns the file of a sheet: that in a results folder, or the file itself.
 pub(super) fn file_of(path: &Path) -> Result<PathBuf, Failure> {

@@ -8,7 +8,7 @@ use crate::clip::{OfSheet, Reading, Whole};
 use crate::console::{Words, counted};
 use crate::failure::Failure;
 use crate::format_args::LookArgs;
-use crate::sheets::near;
+use crate::sheets::{SHEET, near};
 use crate::{files, paths, sheets};
 use genga::error::Error;
 use genga_files::sheet_json::SheetFile;
@@ -123,7 +123,7 @@ fn names(args: &PreviewArgs) -> Result<[String; 2], Failure> {
 /// Names a sheet by its folder if the file is called sheet.json, else by its file.
 fn name_of(path: &Path) -> String {
     let folder = if path.is_dir() { Some(path) } else { path.parent() };
-    if path.is_dir() || paths::file_name(path) == "sheet.json" {
+    if path.is_dir() || paths::file_name(path) == SHEET {
         let folder = folder.and_then(|folder| std::path::absolute(folder).ok());
         let name = folder.as_deref().and_then(Path::file_name);
         return name.map_or_else(|| paths::stem(path), |name| name.to_string_lossy().into_owned());
