@@ -9,7 +9,6 @@ mod track;
 
 use egui::{Id, Rect, Role, Sense, Stroke, Ui, WidgetInfo};
 
-use self::choice::Figured;
 use self::figures::Passage;
 use self::layout::Layout;
 use self::pointer::Hand;
@@ -107,7 +106,7 @@ impl Strip {
         &mut self,
         ui: &Ui,
         layout: &Layout,
-        figured: &[Figured],
+        figured: &[usize],
         is_dragged: bool,
         shown: &Shown<'_>,
     ) {
@@ -149,7 +148,7 @@ impl Strip {
         &self,
         ui: &Ui,
         layout: &Layout,
-        figured: &[Figured],
+        figured: &[usize],
         (shown, difference): (&Shown<'_>, Option<&Difference>),
         (orbit, player): (&Orbit, &Player),
     ) {

@@ -4,25 +4,18 @@ use super::layout::Layout;
 use crate::column::KeyedCell;
 use crate::view_state::Shown;
 
-/// A genga with a figure.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Figured {
-    /// Index among the cells of the column.
-    pub(super) cell: usize,
-}
-
 /// Worth of what a person set, and of what has no price: ends of the clip, of rests and of contacts.
 const SET: f64 = 1e9;
 const STAYS: f64 = 1e6;
 
-/// Chooses the genga in view that have figures, in order.
-pub(super) fn choose(layout: &Layout, shown: &Shown<'_>) -> Vec<Figured> {
+/// Chooses the genga in view that have figures: indices among the cells of the column, in order.
+pub(super) fn choose(layout: &Layout, shown: &Shown<'_>) -> Vec<usize> {
     let seen = layout.seen(shown);
     let cells = &shown.column().cells;
     let genga = seen.filter(|at| cells[*at].genga.is_some());
     let marks: Vec<(usize, f32, f64)> =
         genga.map(|at| (at, layout.x(cells[at].koma), worth(&cells[at]))).collect();
-    fitting(&marks, layout.wide).into_iter().map(|cell| Figured { cell }).collect()
+    fitting(&marks, layout.wide)
 }
 
 /// How much a genga is worth to be seen.

@@ -3,7 +3,6 @@
 use egui::{Align2, FontId, Painter, Pos2, Rect, Stroke, Ui, pos2, vec2};
 use glam::DVec3;
 
-use super::choice::Figured;
 use super::layout::Layout;
 use crate::command::Command;
 use crate::corrections::Correction;
@@ -70,7 +69,7 @@ impl Passage {
 pub(super) fn draw(
     painter: &Painter,
     layout: &Layout,
-    (figured, passage): (&[Figured], Option<(&Passage, f64)>),
+    (figured, passage): (&[usize], Option<(&Passage, f64)>),
     (shown, orbit): (&Shown<'_>, &Orbit),
     changed: Option<&Changed>,
 ) {
@@ -82,13 +81,13 @@ pub(super) fn draw(
     let column = shown.column();
     let current = column.at(shown.at);
     let mut posing = shown.on_screen.posing(shown.scene.figure.marks());
-    for own in figured {
-        let cell = &column.cells[own.cell];
+    for &own in figured {
+        let cell = &column.cells[own];
         let x = layout.x(cell.koma);
-        if own.cell == current {
+        if own == current {
             painter.rect_filled(layout.slot(x), 4.0, shown.look.chosen);
         }
-        let played = passage.filter(|(passage, _)| passage.cell == own.cell);
+        let played = passage.filter(|(passage, _)| passage.cell == own);
         let koma = played.and_then(|(passage, now)| passage.at(now, shown)).unwrap_or(cell.koma);
         let pose = posing.koma(koma);
         draw_body(painter, &place.stage(x, &pose).draw(&pose), Inks::Sides, &shown.look);

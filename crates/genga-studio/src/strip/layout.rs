@@ -2,7 +2,6 @@
 
 use egui::{Pos2, Rangef, Rect, vec2};
 
-use super::choice::Figured;
 use crate::column::KeyedCell;
 use crate::time_axis::Scale;
 use crate::view_state::Shown;
@@ -80,13 +79,13 @@ impl Layout {
     }
 
     /// Index of the exposure whose figure or circle is at a position.
-    pub(super) fn cell(&self, at: Pos2, figured: &[Figured], shown: &Shown<'_>) -> Option<usize> {
+    pub(super) fn cell(&self, at: Pos2, figured: &[usize], shown: &Shown<'_>) -> Option<usize> {
         if at.y > self.badges + 0.5 * BADGES || at.y < self.figures.min.y {
             return None;
         }
-        let away = |own: &&Figured| (self.x(shown.column().cells[own.cell].koma) - at.x).abs();
-        let nearest = figured.iter().min_by(|a, b| away(a).total_cmp(&away(b)))?;
-        (away(&nearest) <= 0.5 * self.wide).then_some(nearest.cell)
+        let away = |own: &usize| (self.x(shown.column().cells[*own].koma) - at.x).abs();
+        let nearest = figured.iter().copied().min_by(|a, b| away(a).total_cmp(&away(b)))?;
+        (away(&nearest) <= 0.5 * self.wide).then_some(nearest)
     }
 
     /// The drawing whose end is at a position of the track. The last one ends with the sheet and cannot be dragged.

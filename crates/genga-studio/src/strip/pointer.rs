@@ -2,7 +2,6 @@
 
 use egui::{CursorIcon, PointerButton, Pos2, Response};
 
-use super::choice::Figured;
 use super::layout::Layout;
 use crate::command::Command;
 use crate::held_key::Held;
@@ -23,7 +22,7 @@ impl Hand {
         &mut self,
         response: &Response,
         layout: &Layout,
-        figured: &[Figured],
+        figured: &[usize],
         shown: &Shown<'_>,
         commands: &mut Vec<Command>,
     ) {
@@ -63,7 +62,7 @@ impl Hand {
 }
 
 /// What is grabbed at a position: the end of a hold, or the genga of a figure.
-fn grasped(at: Pos2, layout: &Layout, figured: &[Figured], shown: &Shown<'_>) -> Option<Held> {
+fn grasped(at: Pos2, layout: &Layout, figured: &[usize], shown: &Shown<'_>) -> Option<Held> {
     match layout.ending(at, shown) {
         Some(cell) => Some(Held::end_of(cell, shown)),
         None => {

@@ -3,7 +3,6 @@
 
 use egui::{Align2, FontId, Painter, Pos2, Rect, Stroke, pos2, vec2};
 
-use super::choice::Figured;
 use super::figures::cross;
 use super::layout::Layout;
 use crate::label_culling::Room;
@@ -22,7 +21,7 @@ const ALONE: f32 = 2.0;
 const LOWER: f32 = 0.55;
 
 /// Draws everything but the figures.
-pub(super) fn draw(painter: &Painter, layout: &Layout, figured: &[Figured], shown: &Shown<'_>) {
+pub(super) fn draw(painter: &Painter, layout: &Layout, figured: &[usize], shown: &Shown<'_>) {
     numbers(painter, layout, shown);
     rounds(painter, layout, shown);
     passages(painter, layout, shown);
@@ -141,15 +140,15 @@ fn forbidden(painter: &Painter, layout: &Layout, shown: &Shown<'_>) {
 }
 
 /// Draws the numbers of the genga with figures, and of others where there is room.
-fn badges(painter: &Painter, layout: &Layout, figured: &[Figured], shown: &Shown<'_>) {
+fn badges(painter: &Painter, layout: &Layout, figured: &[usize], shown: &Shown<'_>) {
     let (cells, look) = (&shown.column().cells, &shown.look);
-    let mut next = figured.iter().map(|own| layout.x(cells[own.cell].koma)).peekable();
+    let mut next = figured.iter().map(|own| layout.x(cells[*own].koma)).peekable();
     let mut room = Room::default();
     for index in layout.seen(shown) {
         let (cell, x) = (&cells[index], layout.x(cells[index].koma));
         let Some(number) = cell.genga else { continue };
         let (middle, color) = (pos2(x, layout.badges), look.of_role(cell.drawing.role));
-        let has_figure = figured.binary_search_by_key(&index, |own| own.cell).is_ok();
+        let has_figure = figured.binary_search(&index).is_ok();
         while next.next_if(|other| *other <= x).is_some() {}
         let is_free = next.peek().is_none_or(|other| *other - x >= APART);
         // Numbers with figures stand apart already.
