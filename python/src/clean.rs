@@ -2,17 +2,11 @@
 
 use std::sync::Arc;
 
-use genga::motion::clean::Cleaning;
 use pyo3::prelude::*;
 
-use crate::clip::Clip;
+use crate::clip::{Clip, cleaning};
 use crate::error::raised;
 use crate::work;
-
-/// Builds the cleaning that Python's arguments describe.
-pub fn cleaning(keep_lead_in: bool, keep_glitches: bool, trim: Option<(usize, usize)>) -> Cleaning {
-    Cleaning { keep_lead_in, keep_glitches, trim: trim.map(|(begin, end)| begin..end) }
-}
 
 #[pymethods]
 impl Clip {

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use genga::Warning;
+use genga::motion::clean::Cleaning;
 use genga::motion::{Axis, Clip as Motion, bvh};
 use genga::time::FrameRate;
 use genga_read as file;
@@ -17,7 +18,6 @@ use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyBytes, PyDict, PyType};
 
 use crate::arrays::{self, Arrays, Places};
-use crate::clean::cleaning;
 use crate::error::{asked_wrongly, raised, raised_of};
 use crate::pickle::{Head, Reduced};
 use crate::work;
@@ -87,6 +87,11 @@ impl Clip {
         read_only(py, cube.as_any())?;
         Ok(cube.unbind())
     }
+}
+
+/// Builds the cleaning that Python's arguments describe.
+pub fn cleaning(keep_lead_in: bool, keep_glitches: bool, trim: Option<(usize, usize)>) -> Cleaning {
+    Cleaning { keep_lead_in, keep_glitches, trim: trim.map(|(begin, end)| begin..end) }
 }
 
 /// Returns the array as C-ordered float64: itself if it already is, else a copy.

@@ -6,7 +6,7 @@ from bpy.types import Operator, UIList
 
 from . import rig, words
 from .subject import armature_of, editable
-from .turn import OfArmature
+from .turn import OfWhat
 
 LEFT_OUT = BoolProperty(name="Left Out", description="Ignore this bone; it still gets keys")
 
@@ -29,7 +29,7 @@ class GENGA_UL_bones(UIList):
         return {name for (name, _), is_staying in zip(told, stays) if is_staying}
 
 
-class GENGA_OT_tick(OfArmature, Operator):
+class GENGA_OT_tick(OfWhat, Operator):
     """Tick bones to leave out"""
 
     bl_idname = "genga.tick"
@@ -41,10 +41,6 @@ class GENGA_OT_tick(OfArmature, Operator):
             ("NONE", "None", "Untick all bones"),
         ),
     )
-
-    @classmethod
-    def description(cls, _context, properties):
-        return cls.bl_rna.properties["what"].enum_items[properties.what].description
 
     def run(self, context):
         for bone in editable(context).data.bones:

@@ -23,6 +23,14 @@ class OfArmature(Reported):
         return armature_of(context) is not None
 
 
+class OfWhat(OfArmature):
+    """An operator with an option `what`, whose items say what it does."""
+
+    @classmethod
+    def description(cls, _context, properties):
+        return cls.bl_rna.properties["what"].enum_items[properties.what].description
+
+
 class GENGA_OT_toggle(OfArmature, Operator):
     """Show the take, or its drawings on the sheet"""
 
@@ -62,7 +70,7 @@ class GENGA_OT_preset(OfArmature, Operator):
         return {"FINISHED"}
 
 
-class GENGA_OT_mark(OfArmature, Operator):
+class GENGA_OT_mark(OfWhat, Operator):
     """Mark the current frame, or in the dope sheet the frames of the selected keys, by markers that can be dragged"""
 
     bl_idname = "genga.mark"
@@ -76,10 +84,6 @@ class GENGA_OT_mark(OfArmature, Operator):
             ("CLEAR", "Clear", "Remove all markers that pin or forbid"),
         ),
     )
-
-    @classmethod
-    def description(cls, _context, properties):
-        return cls.bl_rna.properties["what"].enum_items[properties.what].description
 
     def invoke(self, context, event):
         """Asks before many frames are pinned."""
@@ -103,7 +107,7 @@ class GENGA_OT_mark(OfArmature, Operator):
         return {"FINISHED"}
 
 
-class GENGA_OT_passage(OfArmature, Operator):
+class GENGA_OT_passage(OfWhat, Operator):
     """Give a marked range settings of its own: between selected markers, of the preview range, or of selected keys"""
 
     bl_idname = "genga.passage"
@@ -115,10 +119,6 @@ class GENGA_OT_passage(OfArmature, Operator):
             ("REMOVE", "Remove", "Remove the passage selected in the list"),
         ),
     )
-
-    @classmethod
-    def description(cls, _context, properties):
-        return cls.bl_rna.properties["what"].enum_items[properties.what].description
 
     def run(self, context):
         thing = editable(context)
