@@ -2,27 +2,12 @@
 
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Stdio};
 
 use serde_json::{Value, json};
 
 use crate::clips::here;
+use crate::cut::{made, refused, timesheet};
 use crate::stage::stage;
-
-/// Runs the program, and returns whether it worked and what it said.
-fn genga(folder: &Path, args: &str) -> (bool, String) {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_genga"));
-    let args = args.split_whitespace();
-    let output = command.current_dir(folder).args(args).stdin(Stdio::null()).output().unwrap();
-    let said = [output.stdout, output.stderr].concat();
-    (output.status.success(), String::from_utf8(said).unwrap())
-}
-
-fn made(folder: &Path, args: &str) -> String {
-    let (is_made, said) = genga(folder, args);
-    assert!(is_made, "{args}: {said}");
-    said
-}
 
 fn place() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
@@ -39,8 +24,7 @@ fn sheet(folder: &Path, name: &str) -> Value {
 
 /// The CAMERA column of a timesheet: first koma from 0, koma, words.
 fn camera_column(folder: &Path, name: &str) -> Vec<(u64, u64, String)> {
-    let text = fs::read_to_string(folder.join(name)).unwrap();
-    let file: Value = serde_json::from_str(text.split_once('\n').unwrap().1).unwrap();
+    let file = timesheet(folder, name);
     let table = file["timeTables"].as_array().or(file["timeSheets"][0]["timeTables"].as_array());
     let fields = table.unwrap()[0]["fields"].as_array().unwrap();
     let camera = fields.iter().find(|field| field["fieldId"] == 5).unwrap();
@@ -129,10 +113,10 @@ fn the_camera_of_a_vmd_is_written_beside_the_motion_and_never_over_its_own_file(
     assert!(said.contains("PAN koma 25 to 48: guessed"), "{said}");
     let written = fs::read(folder.join("b/kick-camera.vmd")).unwrap();
     assert_eq!(written[50..], file[50..], "the time is kept, and so is every key");
-    let (is_made, said) = genga(folder, &format!("{run} --out ."));
-    assert!(!is_made && said.contains("kick-camera.vmd"), "{said}");
-    let (is_made, said) = genga(folder, "run kick-camera.vmd");
-    assert!(!is_made && said.contains("--camera-work"), "{said}");
+    let said = refused(folder, &format!("{run} --out ."));
+    assert!(said.contains("kick-camera.vmd"), "{said}");
+    let said = refused(folder, "run kick-camera.vmd");
+    assert!(said.contains("--camera-work"), "{said}");
 }
 
 /// A camera that slides to the right: frame and x of the point that it looks at.

@@ -6,18 +6,11 @@ use crate::clips::with;
 use crate::folders::all;
 use crate::program::{Place, column, text};
 
-/// Runs the program and returns what it said.
-fn said(place: &Place, args: &str) -> String {
-    let output = place.genga(args);
-    assert_eq!(output.status.code(), Some(0), "genga {args}: {}", text(&output.stderr));
-    text(&output.stderr)
-}
-
 #[test]
 fn corrections_of_a_folder_add_up_until_a_fresh_run() {
     let place = Place::new();
     place.done("run data/kick.bvh --pin 42:contact --set spacing.on=3 --out a");
-    let second = said(&place, "run data/kick.bvh --forbid 50 --renumber --out a");
+    let second = place.said("run data/kick.bvh --forbid 50 --renumber --out a");
     let kept = "note        kept from a/recipe.toml (--fresh goes without): pin 42\n";
     assert!(second.contains(kept), "{second}");
     place.done("run data/kick.bvh --hold 60:6 --renumber --out a");
@@ -26,16 +19,16 @@ fn corrections_of_a_folder_add_up_until_a_fresh_run() {
     place.done("run data/kick.bvh --pin 42:contact --forbid 50 --hold 60:6 --out at-once");
     assert_eq!(all(&place.path("a")), all(&place.path("at-once")));
     // A later correction wins, and what it replaces is named.
-    let third = said(&place, "run data/kick.bvh --forbid 40..44 --out a");
+    let third = place.said("run data/kick.bvh --forbid 40..44 --out a");
     assert!(third.contains("(--fresh goes without): forbid 50, hold 60:6\n"), "{third}");
     assert!(third.contains("replaced or not of this clip any more: pin 42\n"), "{third}");
-    let part = said(&place, "run data/kick.bvh --trim 0..55 --out a");
+    let part = place.said("run data/kick.bvh --trim 0..55 --out a");
     assert!(part.contains("not of this clip any more: hold 60:6\n"), "{part}");
     // A recipe that is named has the corrections that count.
     place.done("run data/kick.bvh --recipe at-once/recipe.toml --renumber --out a");
     place.done("run data/kick.bvh --recipe at-once/recipe.toml --out a");
     assert_eq!(all(&place.path("a")), all(&place.path("at-once")));
-    let fresh = said(&place, "run data/kick.bvh --fresh --out a");
+    let fresh = place.said("run data/kick.bvh --fresh --out a");
     assert!(!fresh.contains("kept from"), "{fresh}");
     place.done("run data/kick.bvh --out plain");
     assert_eq!(all(&place.path("a")), all(&place.path("plain")));
@@ -45,14 +38,14 @@ fn corrections_of_a_folder_add_up_until_a_fresh_run() {
 fn a_number_of_genga_overrules_kept_switches_that_leave_none_to_find() {
     let place = Place::new();
     place.done("run data/kick.bvh --pin 42,60 --only-pins --out a");
-    let first = said(&place, "run data/kick.bvh --pin 20 --out a");
+    let first = place.said("run data/kick.bvh --pin 20 --out a");
     assert!(first.contains("pin 42, pin 60, only-pins\n"), "{first}");
     assert!(first.contains("genga       原画       5, first"), "{first}");
-    let asked = said(&place, "run data/kick.bvh --keys 9 --out a");
+    let asked = place.said("run data/kick.bvh --keys 9 --out a");
     assert!(asked.contains("any more: only-pins\n"), "{asked}");
     assert!(asked.contains("genga       原画       9, first"), "{asked}");
     place.done("run data/kick.bvh --freeze a --out a");
-    let frozen = said(&place, "run data/kick.bvh --again --out a");
+    let frozen = place.said("run data/kick.bvh --again --out a");
     assert!(frozen.contains("any more: freeze\n"), "{frozen}");
 }
 
@@ -60,7 +53,7 @@ fn a_number_of_genga_overrules_kept_switches_that_leave_none_to_find() {
 fn the_corrections_of_another_clip_are_not_taken_over() {
     let place = Place::new();
     place.done("run data/kick.bvh --pin 42 --out a");
-    let other = said(&place, "run data/pitch.bvh --out a --force");
+    let other = place.said("run data/pitch.bvh --out a --force");
     assert!(!other.contains("kept from") && !other.contains("correction"), "{other}");
     place.done("run data/pitch.bvh --pin 42 --out a");
     fs::write(place.path("a/recipe.toml"), "[edits]\npins = 3\n").unwrap();
@@ -72,7 +65,7 @@ fn the_corrections_of_another_clip_are_not_taken_over() {
 fn the_summary_says_what_each_correction_did() {
     let place = Place::new();
     let corrections = "--pin 42,60 --forbid 50 --move 71:74 --hold 33:6";
-    let one = said(&place, &format!("run data/kick.bvh {corrections} --out a"));
+    let one = place.said(&format!("run data/kick.bvh {corrections} --out a"));
     let lines: Vec<&str> =
         one.lines().filter_map(|line| line.strip_prefix("correction  修正       ")).collect();
     assert_eq!(
@@ -85,7 +78,7 @@ fn the_summary_says_what_each_correction_did() {
             "move 71:74: genga 12",
         ]
     );
-    let layers = said(&place, "run data/kick.bvh --layers limbs --pin B/42 --out b");
+    let layers = place.said("run data/kick.bvh --layers limbs --pin B/42 --out b");
     assert!(layers.contains("修正       pin B/42: genga "), "{layers}");
     assert_eq!(layers.matches("修正").count(), 1, "{layers}");
 }
@@ -95,7 +88,7 @@ fn pins_of_a_real_clip_have_the_number_that_the_table_gives_them() {
     with(["cmu-07_01-walk", "cmu-02_05-punch-strike"], |clips| {
         for clip in clips {
             let place = Place::new();
-            let said = said(&place, &format!("run {} --pin 40,91 --out a", clip.display()));
+            let said = place.said(&format!("run {} --pin 40,91 --out a", clip.display()));
             let keys = text(&place.files("a")["keys.csv"]);
             let frames = column(&keys, "source_frame");
             for (frame, number) in frames.iter().zip(column(&keys, "genga_no")) {

@@ -24,13 +24,13 @@ fn genga(folder: &Path, args: &str) -> (bool, String) {
     (output.status.success(), String::from_utf8(said).unwrap())
 }
 
-fn made(folder: &Path, args: &str) -> String {
+pub(crate) fn made(folder: &Path, args: &str) -> String {
     let (is_made, said) = genga(folder, args);
     assert!(is_made, "{args}: {said}");
     said
 }
 
-fn refused(folder: &Path, args: &str) -> String {
+pub(crate) fn refused(folder: &Path, args: &str) -> String {
     let (is_made, said) = genga(folder, args);
     assert!(!is_made, "{args}: {said}");
     said
@@ -40,7 +40,7 @@ fn text(folder: &Path, name: &str) -> String {
     fs::read_to_string(folder.join(name)).unwrap_or_else(|error| panic!("{name}: {error}"))
 }
 
-fn timesheet(folder: &Path, name: &str) -> Value {
+pub(crate) fn timesheet(folder: &Path, name: &str) -> Value {
     serde_json::from_str(text(folder, name).split_once('\n').unwrap().1).unwrap()
 }
 

@@ -26,12 +26,6 @@ pub(crate) fn all(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     found
 }
 
-fn said(place: &Place, args: &str) -> String {
-    let output = place.genga(args);
-    assert_eq!(output.status.code(), Some(0), "genga {args}: {}", text(&output.stderr));
-    text(&output.stderr)
-}
-
 fn change(place: &Place, name: &str) -> Vec<u8> {
     // A comment in a recipe, which is read again.
     let changed = [fs::read(place.path(name)).unwrap(), b"# mine".to_vec()].concat();
@@ -55,7 +49,7 @@ fn what_a_run_does_not_write_again_is_gone() {
     place.done("run data/kick.bvh --deliver xdts,images --out a");
     check_manifest(&place, "a");
     assert!(place.path("a/kick_genga_ts.xdts").is_file() && place.path("a/images").is_dir());
-    let said = said(&place, "run data/kick.bvh --keys 8 --fresh --out a");
+    let said = place.said("run data/kick.bvh --keys 8 --fresh --out a");
     assert!(said.contains("of an earlier run, removed: "), "{said}");
     assert!(
         ["kick_genga_ts.xdts", "images/A_0001.png"].iter().all(|file| said.contains(file)),
@@ -75,7 +69,7 @@ fn what_a_person_changed_is_kept_and_named() {
     place.done("run data/kick.bvh --deliver xdts,images --out a");
     let painted = change(&place, "a/images/A_0003.png");
     fs::write(place.path("a/images/sketch.png"), "mine").unwrap();
-    let said = said(&place, "run data/kick.bvh --keys 8 --out a");
+    let said = place.said("run data/kick.bvh --keys 8 --out a");
     assert!(said.contains("kept because they were changed since: images/A_0003.png"), "{said}");
     assert!(!place.path("a/images/A_0001.png").exists());
     assert_eq!(fs::read(place.path("a/images/A_0003.png")).unwrap(), painted);
@@ -91,7 +85,7 @@ fn what_a_link_leads_to_is_not_removed() {
     fs::rename(place.path("a/images"), place.path("elsewhere")).unwrap();
     std::os::unix::fs::symlink("../elsewhere", place.path("a/images")).unwrap();
     let before = all(&place.path("elsewhere"));
-    let said = said(&place, "run data/kick.bvh --out a");
+    let said = place.said("run data/kick.bvh --out a");
     assert!(said.contains("kept because a link leads to them: images/A_0001.png"), "{said}");
     assert_eq!(all(&place.path("elsewhere")), before);
 }
@@ -145,15 +139,15 @@ fn a_painted_picture_stays_unless_it_is_named() {
     let stays = || fs::read(place.path("a/images/A_0003.png")).unwrap() == painted;
     let note = "painted, kept and not written again (--overwrite NAME does): images/A_0003.png";
     for args in ["--keys 8 --renumber", "--keys 8 --force", "--renumber"] {
-        let said = said(&place, &format!("run data/kick.bvh {images} {args} --out a"));
+        let said = place.said(&format!("run data/kick.bvh {images} {args} --out a"));
         assert!(said.contains(note) && stays(), "{args}: {said}");
     }
     let deliver = "deliver a/sheet.json data/kick.bvh --to images --with images.width=200";
-    assert!(said(&place, deliver).contains(note) && stays());
+    assert!(place.said(deliver).contains(note) && stays());
     // A sheet with fewer drawings, then one with more.
     place.done("run data/kick.bvh --pin 20 --only-pins --out a");
     assert!(stays());
-    assert!(said(&place, &format!("run data/kick.bvh {images} --fresh --out a")).contains(note));
+    assert!(place.said(&format!("run data/kick.bvh {images} --fresh --out a")).contains(note));
     assert!(stays());
     // Its name, in the folder or from here, is the way out; other pictures stay.
     let none = place.refused(2, &format!("run data/kick.bvh {images} --overwrite B_1.png --out a"));
@@ -174,7 +168,7 @@ fn a_manifest_that_was_changed_vouches_for_nothing() {
     let said = place.refused(2, "run data/kick.bvh --keys 8 --out a");
     assert!(said.contains("manifest.json") && said.contains("--force"), "{said}");
     // Which pictures were painted is not known any more, so that all of another sheet stay.
-    let forced = self::said(&place, "run data/kick.bvh --keys 8 --out a --force");
+    let forced = place.said("run data/kick.bvh --keys 8 --out a --force");
     assert!(forced.contains("NAME does): poses.svg sheet.svg speed.svg"), "{forced}");
     place.done("run data/kick.bvh --keys 8 --out a --overwrite a");
     check_manifest(&place, "a");
@@ -237,7 +231,7 @@ fn a_clip_that_ends_in_the_middle_of_a_row_says_so_when_quiet_too() {
         "keys cut.bvh -q",
         "deliver a/sheet.json cut.bvh --to csv --out b -q",
     ] {
-        let said = said(&place, args);
+        let said = place.said(args);
         assert!(said.contains(lost), "{args}: {said}");
         assert_eq!(said.lines().count(), 1, "{said}");
     }
@@ -247,7 +241,7 @@ fn a_clip_that_ends_in_the_middle_of_a_row_says_so_when_quiet_too() {
 #[test]
 fn a_forbidden_frame_without_a_key_near_it_is_said() {
     let place = Place::new();
-    let said = said(&place, "run data/kick.bvh --forbid 3,55,60..66 --out a");
+    let said = place.said("run data/kick.bvh --forbid 3,55,60..66 --out a");
     let note = "no key is found near frame 3, so there was none to forbid";
     assert!(said.contains(note), "{said}");
     assert_eq!(said.matches("none to forbid").count(), 1, "{said}");

@@ -9,13 +9,6 @@ use crate::clips::with;
 use crate::folders::all;
 use crate::program::{Place, column, text};
 
-/// Runs the program and returns what it said.
-fn said(place: &Place, args: &str) -> String {
-    let output = place.genga(args);
-    assert_eq!(output.status.code(), Some(0), "genga {args}: {}", text(&output.stderr));
-    text(&output.stderr)
-}
-
 /// The number of each drawing by its layer and the source frame that it shows, as the table of drawings has it.
 fn numbers(place: &Place, folder: &str) -> BTreeMap<(String, String), String> {
     let table = text(&place.files(folder)["drawings.csv"]);
@@ -47,7 +40,7 @@ fn drawings_that_stay_keep_their_numbers_and_a_table_tells_old_from_new() {
     let run = "run data/kick.bvh --deliver xdts,tdts,columns,glb --out a";
     place.done(run);
     let first = numbers(&place, "a");
-    let second_said = said(&place, &format!("{run} --pin 42:contact,55"));
+    let second_said = place.said(&format!("{run} --pin 42:contact,55"));
     check(&place, "a", &first);
     let second = numbers(&place, "a");
     assert!(second.values().any(|number| number.ends_with('a')), "{second:?}");
@@ -92,13 +85,13 @@ fn numbers_begin_at_1_again_on_request() {
     let place = Place::new();
     place.done("run data/kick.bvh --out a");
     place.done("run data/kick.bvh --pin 42,55 --out a");
-    assert!(said(&place, "run data/kick.bvh --renumber --out a").contains(" changed"));
+    assert!(place.said("run data/kick.bvh --renumber --out a").contains(" changed"));
     place.done("run data/kick.bvh --pin 42,55 --out plain");
     assert_eq!(numbers(&place, "a"), numbers(&place, "plain"), "and the corrections stay");
     let table = text(&place.files("a")["numbers.csv"]);
     let both = column(&table, "old").into_iter().zip(column(&table, "new"));
     assert!(both.clone().any(|(old, new)| old.ends_with('a') && !new.ends_with('a')), "{table}");
-    let quiet = said(&place, "run data/kick.bvh --out a");
+    let quiet = place.said("run data/kick.bvh --out a");
     assert!(!quiet.contains("番号"), "{quiet}");
     assert_eq!(all(&place.path("a")), all(&place.path("plain")));
     place.done("run data/kick.bvh --keys 8 --out a");
@@ -111,14 +104,14 @@ fn numbers_begin_at_1_again_on_request() {
 fn numbers_of_another_clip_or_other_layers_are_not_kept_and_that_is_said() {
     let place = Place::new();
     place.done("run data/kick.bvh --out a");
-    let other = said(&place, "run data/pitch.bvh --out a --force");
+    let other = place.said("run data/pitch.bvh --out a --force");
     assert!(
         other.contains(
             "note        drawings are numbered from 1: a/sheet.json is not known to be of this clip"
         ),
         "{other}"
     );
-    let limbs = said(&place, "run data/pitch.bvh --layers limbs --out a");
+    let limbs = place.said("run data/pitch.bvh --layers limbs --out a");
     assert!(
         limbs.contains(
             "note        drawings of A are numbered from 1: the sheet before had other joints there"
@@ -142,7 +135,7 @@ fn a_painted_picture_stays_that_of_its_drawing() {
     let picture = format!("images/A_{last:04}.png");
     let painted = [&fs::read(place.path("a").join(&picture)).unwrap()[..], b"mine"].concat();
     fs::write(place.path("a").join(&picture), &painted).unwrap();
-    let said = said(&place, &format!("{run} --pin 5"));
+    let said = place.said(&format!("{run} --pin 5"));
     assert!(
         said.contains(&format!(
             "painted, kept and not written again (--overwrite NAME does): {picture}"

@@ -101,6 +101,13 @@ impl Place {
         text(&output.stdout)
     }
 
+    /// Runs the program, checks that it succeeds, and returns stderr.
+    pub(crate) fn said(&self, args: &str) -> String {
+        let output = self.genga(args);
+        assert_eq!(output.status.code(), Some(0), "genga {args}: {}", text(&output.stderr));
+        text(&output.stderr)
+    }
+
     /// Runs the program, checks that it fails with this code and an empty stdout, and returns stderr.
     pub(crate) fn refused(&self, code: i32, args: &str) -> String {
         let output = self.genga(args);

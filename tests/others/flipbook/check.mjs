@@ -1,28 +1,12 @@
 // Opens a flip-book in Chromium and asks it whether it does what it says.
 import assert from "node:assert/strict";
-import { readFileSync } from "node:fs";
-import { pathToFileURL } from "node:url";
-import { chromium } from "playwright-core";
+import { open } from "./open.mjs";
 import { fitsSmallWindows } from "./small_windows.mjs";
 
 const [page_path, folder] = process.argv.slice(2);
-const text = readFileSync(page_path, "utf8");
-const take = JSON.parse(text.match(/<script type="application\/json" id="take">(.*?)<\/script>/s)[1]);
+const { text, take, browser, page, said, asked } = await open(page_path);
 const [sheet] = take.sheets;
 assert.ok(!/https?:\/\//.test(text), "the page names no address");
-
-const browser = await chromium.launch({
-  executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
-  args: ["--no-sandbox", "--disable-gpu"],
-});
-const context = await browser.newContext({ viewport: { width: 1280, height: 720 }, locale: "en-GB", colorScheme: "light" });
-const page = await context.newPage();
-const said = [];
-const asked = [];
-page.on("console", (message) => said.push(`${message.type()}: ${message.text()}`));
-page.on("pageerror", (error) => said.push(`error: ${error.message}`));
-page.on("request", (request) => asked.push(request.url()));
-await page.goto(pathToFileURL(page_path).href);
 
 // The drawing on a koma, by the sheet and not by the player.
 const cellOf = (koma) => sheet.cells.find(([, begin, held]) => begin <= koma && koma < begin + held);

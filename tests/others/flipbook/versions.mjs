@@ -1,26 +1,12 @@
 // Opens a flip-book of two versions in Chromium: both run in step, and where they differ it is seen.
 import assert from "node:assert/strict";
-import { readFileSync } from "node:fs";
-import { pathToFileURL } from "node:url";
-import { chromium } from "playwright-core";
+import { open } from "./open.mjs";
 import { fitsSmallWindows } from "./small_windows.mjs";
 
 const [page_path, folder] = process.argv.slice(2);
-const text = readFileSync(page_path, "utf8");
-const take = JSON.parse(text.match(/<script type="application\/json" id="take">(.*?)<\/script>/s)[1]);
+const { take, browser, page, said } = await open(page_path);
 const last = take.koma - 1;
 const ids = ["first", "second"];
-
-const browser = await chromium.launch({
-  executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
-  args: ["--no-sandbox", "--disable-gpu"],
-});
-const context = await browser.newContext({ viewport: { width: 1280, height: 720 }, locale: "en-GB", colorScheme: "light" });
-const page = await context.newPage();
-const said = [];
-page.on("console", (message) => said.push(`${message.type()}: ${message.text()}`));
-page.on("pageerror", (error) => said.push(`error: ${error.message}`));
-await page.goto(pathToFileURL(page_path).href);
 
 // What stands on a koma, by the sheet and not by the player: its cell, and after its end the last one.
 const cellOn = (sheet, koma) =>
