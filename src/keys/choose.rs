@@ -1,7 +1,7 @@
 //! Chooses the keys of a layer: the candidates that together save most for their price.
 
 use std::iter::once;
-use std::ops::RangeInclusive;
+use std::ops::{Range, RangeInclusive};
 
 use serde::{Deserialize, Serialize};
 
@@ -33,6 +33,10 @@ const DISCOUNT: f64 = 0.9;
 
 /// Least cost of a key, as a share of the price.
 const LEAST_COST: f64 = 0.05;
+
+/// Least share of the price that a passage's own price may be: a key without any price would stay however far the price
+/// rises for the limit.
+const LEAST_SHARE: f64 = 1e-6;
 
 /// The source of a layer's key candidates.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -90,6 +94,10 @@ pub struct Choose {
     /// second. A full turn costs a tenth of that. 0 or more, default 7.5. Raised, small gestures lose their keys first.
     /// Used if ranked by price.
     pub min_price: f64,
+    /// Prices that hold in ranges of source frames in place of `min_price`, the later over the earlier. Default: none. A
+    /// recipe has them in its passages, and [`Recipe::of_layer`](crate::recipe::Recipe::of_layer) puts them here.
+    #[serde(skip)]
+    pub prices_within: Vec<(Range<Frame>, f64)>,
     /// Speed below which the whole body rests, in % of body height a second (the posture's speed: pelvis, heading, and
     /// root mean square over the other points). 0 or more, default 25; 0 for no rests. Both ends of a rest of half a
     /// second or more are keys whatever they save. Raised, slow gestures count as rests.
@@ -125,6 +133,7 @@ impl Default for Choose {
             reach: Span::Seconds(0.08),
             rank: Rank::Price,
             min_price: 7.5,
+            prices_within: Vec::new(),
             rest: 25.0,
             at_rests: AtRests::default(),
             gaits: AtGaits::default(),
@@ -249,7 +258,7 @@ knobs!(keys::Choose {
     .above(0.0)
     .or_inf()
     .slider(0.1, 12.0),
-    ..weights
+    ..prices_within, weights
 });
 
 impl Choose {
@@ -265,8 +274,19 @@ impl Choose {
     /// Returns the longest chord that must be weighed, in seconds. With many keys a second, longer chords are never
     /// chosen; otherwise it is infinite.
     pub fn span(&self) -> f64 {
-        let are_many = self.per_second >= MANY && self.min_price <= CHEAP;
+        let are_many = self.per_second >= MANY && self.highest_price() <= CHEAP;
         if are_many { FAR } else { f64::INFINITY }
+    }
+
+    /// Returns the price of a key on a frame, in % of body height.
+    fn price_at(&self, frame: Frame) -> f64 {
+        let within = self.prices_within.iter().rfind(|(frames, _)| frames.contains(&frame));
+        within.map_or(self.min_price, |(_, price)| *price)
+    }
+
+    /// Returns the highest price of any frame.
+    fn highest_price(&self) -> f64 {
+        self.prices_within.iter().map(|(_, price)| *price).fold(self.min_price, f64::max)
     }
 
     /// Chooses the keys that are worth a drawing, with their voters; a person's pins are included.
@@ -394,14 +414,19 @@ impl Choose {
             };
             Entry { frame, koma, stays, cost, holds }
         };
+        let price = if self.min_price > 0.0 { self.min_price } else { self.highest_price() };
+        let share = |frame| match price {
+            0.0 => 1.0,
+            _ => (self.price_at(frame) / price).powi(2).max(LEAST_SHARE),
+        };
         let cost = |key: &Key| match self.merge {
-            Merge::Body => (1.0 - DISCOUNT * key.strength).max(LEAST_COST),
-            Merge::Union | Merge::Vote => 1.0,
+            Merge::Body => share(key.frame) * (1.0 - DISCOUNT * key.strength).max(LEAST_COST),
+            Merge::Union | Merge::Vote => share(key.frame),
         };
         let inner = keys.iter().map(|key| entry(key.frame, !key.origin.is_found(), cost(key)));
         let first = once(entry(first, true, 1.0));
         let by = match self.rank {
-            Rank::Price => By::Price(self.min_price),
+            Rank::Price => By::Price(price),
             Rank::Strength => {
                 let inner = keys.iter().map(|key| key.strength);
                 By::Strength(once(0.0).chain(inner).chain([0.0]).collect())

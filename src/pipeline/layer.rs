@@ -251,6 +251,7 @@ impl LayerStages {
         // Price, rests and limit only choose among the candidates, so they are neutralised here.
         let merging = Choose {
             min_price: 0.0,
+            prices_within: Vec::new(),
             rest: 0.0,
             at_rests: keys::AtRests::Off,
             gaits: keys::AtGaits::Off,

@@ -22,6 +22,9 @@ const OF_LAYERS: [&str; 3] = ["keys", "spacing", "omission"];
 /// Sections whose settings a passage may have of its own.
 const OF_PASSAGES: [&str; 2] = ["spacing", "omission"];
 
+/// The one setting of keys that a passage may have of its own: all others say how keys are found along the whole take.
+pub(super) const PRICE: &str = "keys.min_price";
+
 /// Settings of those sections that nevertheless hold for the whole take: they say how its stages run.
 const OF_TAKE: [&str; 2] = ["omission.all_at_once", "omission.order"];
 
@@ -91,6 +94,11 @@ impl Overrides {
         self.0.is_empty()
     }
 
+    /// Whether a setting is among them.
+    pub(super) fn has(&self, name: &str) -> bool {
+        self.0.contains_key(name)
+    }
+
     /// Returns each setting with its value.
     pub fn iter(&self) -> impl Iterator<Item = (&str, &str)> {
         self.0.iter().map(|(name, word)| (name.as_str(), word.as_str()))
@@ -114,6 +122,13 @@ impl Passage {
     /// Whether it holds in a layer.
     fn is_of(&self, layer: &str) -> bool {
         self.layer.as_deref().is_none_or(|own| own == layer)
+    }
+
+    /// Returns the price of a key within it, over a layer's recipe.
+    pub(super) fn price(&self, recipe: &Recipe) -> (Range<Frame>, f64) {
+        let mut own = recipe.clone();
+        self.settings.lay_over(&mut own);
+        (self.frames.from..self.frames.past, own.keys.min_price)
     }
 
     fn scope(&self) -> Scope {
@@ -277,12 +292,13 @@ impl Scope {
         let section = knob.path().0.unwrap_or_default();
         let is_passage = self.frames.is_some();
         let message = match section {
+            "keys" if is_passage && name == PRICE => return Ok(()),
             "keys" if is_passage => {
-                "keys are chosen over the whole take; a passage has settings of its own in spacing and omission, and \
+                "keys are found over the whole take; a passage has its own keys.min_price, spacing and omission, and \
                  pins and forbidden frames change its keys"
             }
             _ if is_passage && (!OF_PASSAGES.contains(&section) || OF_TAKE.contains(&name)) => {
-                "holds for the whole take; a passage has settings of its own in spacing and omission"
+                "holds for the whole take; a passage has its own keys.min_price, spacing and omission"
             }
             _ if !OF_LAYERS.contains(&section) => {
                 "holds for the whole sheet; a layer has settings of its own in spacing, omission and keys"
@@ -427,11 +443,9 @@ mod tests {
         );
         assert_eq!(
             error("120..240:filter.width", "12"),
-            "120..240:filter.width: holds for the whole take; a passage has settings of its own in spacing and omission"
+            "120..240:filter.width: holds for the whole take; a passage has its own keys.min_price, spacing and omission"
         );
-        assert!(
-            error("120..240:keys.min_price", "3").contains("keys are chosen over the whole take")
-        );
+        assert!(error("120..240:keys.rest", "3").contains("keys are found over the whole take"));
         assert!(
             error("9..:omission.order", "koma_dori_first").contains("holds for the whole take")
         );

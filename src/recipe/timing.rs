@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use super::scopes::PRICE;
 use super::{Outside, Recipe};
 use crate::time::{Clock, Frame};
 use crate::timing::{Amount, ByPassage, Omission, On, Spacing};
@@ -18,13 +19,15 @@ pub struct LayerTiming {
 }
 
 impl Recipe {
-    /// Returns the recipe of a layer: its own settings over those of all.
+    /// Returns the recipe of a layer: its own settings over those of all, with the prices of its passages.
     #[must_use]
     pub fn of_layer(&self, name: &str) -> Self {
         let mut own = self.without_scopes();
         if let Some(settings) = self.scopes.layers.get(name) {
             settings.lay_over(&mut own);
         }
+        let priced = self.scopes.passages_of(name).filter(|passage| passage.settings.has(PRICE));
+        own.keys.prices_within = priced.map(|passage| passage.price(&own)).collect();
         own
     }
 

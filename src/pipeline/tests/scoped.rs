@@ -61,6 +61,41 @@ fn a_passage_of_the_whole_clip_is_the_recipe() {
 }
 
 #[test]
+fn a_passage_with_a_price_of_its_own_changes_the_keys_in_it() {
+    let clip = pitch();
+    let mut engine = Engine::new(clip.clone()).unwrap();
+    let mut keys = |settings: &[(&str, &str)]| {
+        let made = run(&mut engine, &recipe(settings), &NONE());
+        assert!(made == fresh(&clip, &recipe(settings), &NONE()), "{settings:?}: a used engine");
+        made.keys.keys.iter().map(|key| key.frame.0).collect::<Vec<_>>()
+    };
+    let split = |keys: Vec<usize>| -> (Vec<usize>, Vec<usize>) {
+        keys.into_iter().partition(|frame| (60..100).contains(frame))
+    };
+    let (usual, around) = split(keys(&[]));
+    let (few, beside) = split(keys(&[("60..100:keys.min_price", "60")]));
+    let (many, nearby) = split(keys(&[("60..100:keys.min_price", "1")]));
+    assert!(few.len() < usual.len() && usual.len() < many.len(), "{few:?} {usual:?} {many:?}");
+    // A key more or less at an end of the passage may shift the one next to it.
+    let last = |keys: &[usize]| keys.iter().rev().take(2).copied().collect::<Vec<_>>();
+    assert_eq!([last(&beside), last(&nearby)], [last(&around), last(&around)]);
+    let dear = [("keys.min_price", "30")];
+    for price in ["keys.min_price", "20..:keys.min_price", "A/20..:keys.min_price"] {
+        assert_eq!(keys(&[(price, "30")]), keys(&dear), "{price}");
+        assert_eq!(keys(&[("keys.min_price", "0"), (price, "30")]), keys(&dear), "{price}");
+    }
+    // The limit picks among keys without a price; which price it tries first decides between equals.
+    let none =
+        [("keys.min_price", "0"), ("20..:keys.min_price", "0")].map(|own| keys(&[own]).len());
+    assert_eq!(none[0], none[1], "keys without a price");
+    let later = [("60..100:keys.min_price", "1"), ("20..:keys.min_price", "30")];
+    assert_eq!(keys(&later), keys(&dear), "the later over the earlier");
+    let limit = ("keys.per_second", "2");
+    let limited = keys(&[("keys.min_price", "0"), ("60..100:keys.min_price", "3"), limit]);
+    assert!(limited.len() <= 8 + 4, "the limit holds: {limited:?}");
+}
+
+#[test]
 fn a_passage_is_timed_by_itself_and_nothing_else_changes() {
     let clip = pitch();
     let usual = fresh(

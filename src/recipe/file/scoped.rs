@@ -27,7 +27,7 @@ const ABOUT_LAYERS: &str = "\n# セルごとの設定 — Settings of single lay
 /// The comment above the passages.
 const ABOUT_PASSAGES: &str = "
 # 区間ごとの設定 — Passages of source frames (the last not included) with settings of their own, the later over the
-# earlier. With layer = \"B\" a passage holds in that layer alone.
+# earlier: spacing, omission and keys.min_price. With layer = \"B\" a passage holds in that layer alone.
 ";
 
 impl Recipe {
