@@ -116,9 +116,9 @@ fn what_a_layer_or_passage_cannot_have_is_refused() {
         ),
         (
             "--within 30..60:rate=12",
-            "30..60:rate: holds for the whole take; a passage has settings",
+            "30..60:rate: holds for the whole take; a passage has its own keys.min_price",
         ),
-        ("--within 30..60:keys.min_price=3", "keys are chosen over the whole take"),
+        ("--within 30..60:keys.rest=3", "keys are found over the whole take"),
         (
             "--within 300..600:spacing.on=1",
             "300..600: is not in the clip, which has frames 0 to 91",
@@ -191,4 +191,38 @@ fn on_a_real_clip_punches_are_on_ones_and_all_else_on_twos() {
         let genga = |sheet: &Sheet| sheet.layers[0].genga();
         assert!(genga(&made).abs_diff(genga(&plain)) <= 2, "the keys stay");
     });
+}
+
+#[test]
+fn on_real_clips_another_price_within_a_passage_changes_the_genga_there_alone() {
+    let mut compared = [0; 2];
+    for path in clips::all() {
+        let (name, clip) = (clips::name(&path), clips::read(&path));
+        let clock = sheet(&clip, &[]).clock;
+        let [from, past] = [3, 2].map(|part| clip.first().0 + clip.len() / part);
+        // The genga before, in and after the passage; those next to its ends may give way.
+        let genga = |price: &str| {
+            let within = format!("{from}..{past}:keys.min_price");
+            let made = sheet(&clip, &[(within.as_str(), price)]);
+            let kept = made.layers[0].drawings.iter().filter(|drawing| drawing.role.is_kept());
+            let mut parts = [const { Vec::new() }; 3];
+            for place in kept.map(|drawing| drawing.source.place()) {
+                parts[usize::from(place >= from as f64) + usize::from(place >= past as f64)]
+                    .push(place);
+            }
+            parts
+        };
+        let [usual, few, many] = ["7.5", "60", "1"].map(genga);
+        assert!(few[1].len() <= usual[1].len() && usual[1].len() <= many[1].len(), "{name}");
+        compared[0] += usize::from(few[1].len() < usual[1].len());
+        compared[1] += usize::from(usual[1].len() < many[1].len());
+        let second = 24.0 * clock.frames_in_koma();
+        let far = |place: &&f64| **place < from as f64 - second || **place > past as f64 + second;
+        let beside =
+            |parts: &[Vec<f64>; 3]| parts.iter().flatten().filter(far).copied().collect::<Vec<_>>();
+        assert_eq!(beside(&few), beside(&usual), "{name}");
+        assert_eq!(beside(&many), beside(&usual), "{name}");
+    }
+    let real = clips::all().len();
+    assert!(compared.iter().all(|changed| 2 * changed >= real), "{compared:?} of {real}");
 }
