@@ -283,7 +283,7 @@ mod by_the_program {
             (&actions[0]["why"], &actions[1]["why"]),
             (&serde_json::Value::Null, &"rest".into())
         );
-        assert!(said.contains("actions     動作       2, beginning with frames 0 and"), "{said}");
+        assert!(said.contains("actions     動作       2, which begin at frames 0, "), "{said}");
         assert!(pictures.iter().all(|picture| picture.contains("区切り")));
         let asked = &report["omission"]["naka_nashi_asked"];
         assert!(asked.as_u64().unwrap() > 6, "{asked}: 6 is for one action");

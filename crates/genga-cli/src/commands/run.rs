@@ -55,7 +55,7 @@ fn help_flag() -> Arg {
 /// settings do not hold. A run after an edit is how a recipe is tuned, so the file is kept and the run not refused.
 const KEPT: &str = "recipe.toml is the recipe that was given, and stays as it is";
 
-/// Most actions after the first whose begins are printed; a long take has hundreds.
+/// Most actions whose begins are printed; a long take has hundreds.
 const ACTIONS: usize = 8;
 
 /// Note when the recipe is kept although the run has settings that are not in it.
@@ -287,13 +287,12 @@ fn of_body(words: &Words, report: &Report) {
         report.longest_hold
     ));
     if report.actions.len() > 1 {
-        let later = report.actions[1..].iter().map(|action| action.from.to_string());
-        let more = if report.actions.len() > 1 + ACTIONS { " …, all in report.json" } else { "" };
+        let begins = report.actions.iter().map(|action| action.from.to_string());
+        let more = if report.actions.len() > ACTIONS { " …, all in report.json" } else { "" };
         words.say(format_args!(
-            "actions     動作       {}, beginning with frames {} and {}{more}",
+            "actions     動作       {}, which begin at frames {}{more}",
             report.actions.len(),
-            report.first_frame,
-            later.take(ACTIONS).collect::<Vec<_>>().join(" ")
+            begins.take(ACTIONS).collect::<Vec<_>>().join(", ")
         ));
     }
     report.gaits.iter().for_each(|gait| words.say(of_gait(gait)));
