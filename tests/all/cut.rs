@@ -228,7 +228,7 @@ fn camera_work_of_a_recipe_is_on_every_sheet() {
 }
 
 /// A timesheet as a director wrote it: a background, camera work and dialogue.
-const DIRECTORS: &str = "exchangeDigitalTimeSheet Save Data\n{ \"timeTables\": [ { \"name\": \"c045\", \"duration\": 130,\n\
+pub(crate) const DIRECTORS: &str = "exchangeDigitalTimeSheet Save Data\n{ \"timeTables\": [ { \"name\": \"c045\", \"duration\": 130,\n\
     \"timeTableHeaders\": [ { \"fieldId\": 0, \"names\": [ \"BG\", \"A\" ] }, { \"fieldId\": 5, \"names\": [ \"CAM\" ] } ],\n\
     \"fields\": [ { \"fieldId\": 5, \"tracks\": [ { \"trackNo\": 0, \"frames\": [\n\
     { \"frame\": 0, \"data\": [ { \"id\": 0, \"values\": [ \"PAN\" ] } ] } ] } ] },\n\

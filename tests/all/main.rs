@@ -56,6 +56,8 @@ mod shared_clip; // a file in blocks is the file from memory // filter and persi
 mod program; // the built binary, as a person or a script uses it
 #[cfg(unix)]
 mod readme; // README and guide show what the program does
+mod real_cuts; // cuts of real clips: late, repeated, filmed, in somebody's timesheet
+
 mod real_clips; // the default recipe on every real clip
 mod rerig; // the same motion in another rig gives the same sheet
 mod same_take;
