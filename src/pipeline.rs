@@ -1,5 +1,6 @@
 //! The whole chain: [`Clip`] + [`Recipe`] + [`Edits`] → [`Breakdown`].
 
+mod breakdown;
 mod budget;
 mod joints;
 mod laid;
@@ -17,23 +18,23 @@ use std::sync::Arc;
 
 use crate::edits::{CameraCue, Edits, Hold, Speech};
 use crate::error::Error;
-use crate::keys::{
-    ActionFinder, Actions, BodyTurns, Key, LayerJoints, LayerKeys, Layers, Reconstruction,
-};
-use crate::motion::{Clip, Filmed, Screen, SeenFrom};
+use crate::keys::{ActionFinder, Actions, BodyTurns, LayerJoints, Layers, Reconstruction};
+use crate::motion::{Clip, Filmed, Screen};
 use crate::recipe::Recipe;
 use crate::sheet::{CameraWork, Feet, RootMotion, Sheet, SpokenLine};
-use crate::signal::{Signals, Spectrum, Speed, Turn};
+use crate::signal::{Spectrum, Speed, Turn};
 use crate::slate::Slate;
 use crate::time::{Clock, Frame};
 use crate::timing::{Omitted, Spaced, with_holds};
 
+use breakdown::Shown;
+pub use breakdown::{Breakdown, FoundKeys};
 pub use budget::Budget;
 use joints::JointStages;
 use laid::Laid;
 pub use layer::LayerBreakdown;
 use layer::{LayerStages, Measured};
-use looped::{Looped, LoopedLayer, Rounded};
+use looped::{Looped, Rounded};
 use moving::{Moving, MovingStages};
 use stage::{Of, Stage};
 pub use stop::Stop;
@@ -67,81 +68,6 @@ pub struct Engine {
 type SheetSettings = ((Clock, RootMotion, Feet, Frame), Vec<Hold>, Vec<Speech>, InCut);
 /// The koma on which the first drawing stands, the length of the cut, its slate, and its camera work.
 type InCut = (Option<usize>, Option<usize>, Slate, Vec<CameraCue>);
-
-/// Every intermediate result of a run.
-#[derive(Debug, Clone, Copy)]
-pub struct Breakdown<'a> {
-    /// The source motion, unchanged.
-    pub source: &'a Clip,
-    /// The motion that is measured and drawn: the source, exaggerated if the recipe asks for it.
-    pub clip: &'a Clip,
-    /// Camera in which movement was measured.
-    pub seen_from: SeenFrom,
-    /// The screen of that camera.
-    pub screen: &'a Screen,
-    /// Maps the sheet's koma to frames of the clip.
-    pub clock: Clock,
-    /// The speed of each joint.
-    pub speed: &'a Signals,
-    /// The smoothed speeds.
-    pub filtered: &'a Signals,
-    /// Confirmed keys and walls of each joint, by frame.
-    pub turns: &'a [Vec<Turn>],
-    /// The actions of the take.
-    pub actions: &'a Actions,
-    /// The sheet before omission.
-    pub spaced: &'a Sheet,
-    /// The final sheet.
-    pub sheet: &'a Sheet,
-    layers: Shown<'a>,
-}
-
-/// The results of each layer: as the chain made them, or of the round of a loop.
-#[derive(Debug, Clone, Copy)]
-enum Shown<'a> {
-    Whole(&'a [LayerStages]),
-    Round(&'a [LoopedLayer]),
-}
-
-/// Results up to the keys of the first layer.
-#[derive(Debug, Clone, Copy)]
-pub struct FoundKeys<'a> {
-    /// Confirmed keys and walls of each joint, by frame.
-    pub turns: &'a [Vec<Turn>],
-    /// The turns of the layer as a whole.
-    pub body: &'a BodyTurns,
-    /// Keys and walls of the layer.
-    pub keys: &'a LayerKeys,
-    /// The keys without corrections, or the frozen ones.
-    pub uncorrected: &'a [Key],
-}
-
-impl<'a> Breakdown<'a> {
-    /// Replaces the final sheet by one with the same drawings and other numbers.
-    pub fn with_sheet(self, sheet: &'a Sheet) -> Self {
-        Self { sheet, ..self }
-    }
-
-    /// Returns the results of each layer of the sheet.
-    pub fn layers(&self) -> impl ExactSizeIterator<Item = LayerBreakdown<'a>> + use<'a> {
-        let (layers, count) = (self.layers, self.sheet.layers.len());
-        (0..count).map(move |at| layers.breakdown(at))
-    }
-
-    /// Returns the first layer of the sheet: the whole body, unless the recipe splits it.
-    pub fn first_layer(&self) -> LayerBreakdown<'a> {
-        self.layers.breakdown(0)
-    }
-}
-
-impl<'a> Shown<'a> {
-    fn breakdown(self, at: usize) -> LayerBreakdown<'a> {
-        match self {
-            Self::Whole(layers) => layers[at].breakdown(),
-            Self::Round(layers) => layers[at].breakdown(),
-        }
-    }
-}
 
 impl Engine {
     /// Creates an engine for a clip.

@@ -11,11 +11,12 @@ use super::stage::Inputs;
 use super::*;
 use crate::cases::{cases, is_full};
 use crate::edits::{Forbidden, Move, Pin};
-use crate::keys::{self, Candidates, Origin};
+use crate::keys::{self, Candidates, LayerKeys, Origin};
 use crate::motion::bvh;
 use crate::motion::lanes::narrow;
 use crate::recipe::{KNOBS, Kind, Knob};
 use crate::sheet::{Role, Source};
+use crate::signal::Signals;
 use crate::timing::{OmissionReport, On};
 
 /// The synthetic pitch, cut to a hundred frames around the throw: 24 frames per second, 23 joints.
