@@ -177,7 +177,11 @@ fn a_sheet_with_blank_koma_comes_back_from_another_program() {
         "--quiet keys kick.bvh --at 25 --length 130 --pin-from a/kick_genga_ts.xdts --only-pins",
     );
     assert_eq!(marked.len(), own.len());
-    let said = refused(folder, "keys kick.bvh --length 130 --pin-from a/kick_genga_ts.xdts");
+    // The sheet beside it knows its koma; without one they are those of this run.
+    let beside = "--quiet keys kick.bvh --length 130 --pin-from a/kick_genga_ts.xdts --only-pins";
+    assert_eq!(keys(beside), marked);
+    fs::rename(folder.join("a/kick_genga_ts.xdts"), folder.join("kick_genga_ts.xdts")).unwrap();
+    let said = refused(folder, "keys kick.bvh --length 130 --pin-from kick_genga_ts.xdts");
     assert!(said.contains("column A has a key on koma 94"), "{said}");
 }
 

@@ -425,6 +425,25 @@ fn the_keys_of_an_edited_table_or_sheet_come_back_alone_or_with_others() {
     }
 }
 
+#[test]
+fn the_keys_of_a_timesheet_are_the_frames_that_its_own_sheet_shows() {
+    let place = Place::new();
+    let run = "run data/pitch.bvh --keys 8 --set spacing.weight=0.9 --deliver xdts --out a";
+    place.done(run);
+    let own = frames(&fs::read_to_string(place.path("a/keys.csv")).unwrap());
+    let marked = "a/pitch_genga_ts.xdts";
+    let back = place.genga(&format!("keys data/pitch.bvh --pin-from {marked} --only-pins"));
+    assert_eq!(frames(&text(&back.stdout)), own);
+    let said = text(&back.stderr);
+    assert!(said.contains("its koma show what they do in a/sheet.json"), "{said}");
+    // Without that sheet, its koma are those of the default recipe.
+    fs::rename(place.path(marked), place.path("pitch_genga_ts.xdts")).unwrap();
+    let alone = "keys data/pitch.bvh --pin-from pitch_genga_ts.xdts --only-pins";
+    assert_ne!(frames(&place.done(alone)), own);
+    let same = format!("{alone} --recipe a/recipe.toml");
+    assert_eq!(frames(&place.done(&same)), own);
+}
+
 /// A table as Excel saves it: with a byte order mark and Windows line ends.
 #[test]
 fn a_table_written_for_excel_comes_back_as_keys() {

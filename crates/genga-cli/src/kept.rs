@@ -1,4 +1,5 @@
-//! Corrections that stay from run to run (前の修正): those in the recipe of the results folder, unless `--fresh`.
+//! Corrections that stay from run to run (前の修正): those in the recipe of the results folder, unless `--fresh`. Settings
+//! do not stay: a run without any is the default one.
 
 use std::path::Path;
 
@@ -12,7 +13,7 @@ use genga::recipe::Recipe;
 use genga_files::Run;
 
 /// Lays a run's corrections over those of the previous run in the same folder. Returns notes on kept and dropped
-/// corrections.
+/// corrections, and on settings that the previous run had.
 pub(super) fn keep(
     plan: &mut Plan<'_>,
     folder: &Path,
@@ -20,11 +21,12 @@ pub(super) fn keep(
 ) -> Result<Vec<String>, Failure> {
     let path = folder.join(Run::RECIPE);
     let Ok(text) = std::fs::read_to_string(&path) else { return Ok(vec![]) };
-    let (_, before) = Recipe::parse(&text).map_err(files::fault_of(&path)).map_err(|failure| {
-        Failure::AskedWrongly(format!(
-            "{failure}; its corrections cannot be kept: --fresh goes without"
-        ))
-    })?;
+    let (settings, before) =
+        Recipe::parse(&text).map_err(files::fault_of(&path)).map_err(|failure| {
+            Failure::AskedWrongly(format!(
+                "{failure}; its corrections cannot be kept: --fresh goes without"
+            ))
+        })?;
     let listed = list(&before);
     plan.edits = plan.over(usable(before, &plan.recipe, engine)?);
     let now = list(&plan.edits);
@@ -34,8 +36,22 @@ pub(super) fn keep(
         (stay, format!("kept from {from} (--fresh goes without)")),
         (gone, format!("of {from}, replaced or not of this clip any more")),
     ];
-    let said = said.into_iter().filter(|(which, _)| !which.is_empty());
+    let lost = lost_settings(&settings, &plan.recipe);
+    let way_out = format!("settings do not stay; --recipe {from} keeps those of the run before");
+    let said = said.into_iter().chain([(lost, way_out)]).filter(|(which, _)| !which.is_empty());
     Ok(said.map(|(which, what)| format!("{what}: {}", shortened_list(which))).collect())
+}
+
+/// Lists the settings of the previous run that this one has back at their defaults.
+fn lost_settings(before: &Recipe, now: &Recipe) -> Vec<String> {
+    let [usual, before, now] = [&Recipe::default(), before, now].map(Recipe::settings);
+    let is_lost = |own: &&(String, String)| !usual.contains(own) && !now.contains(own);
+    let is_reset = |own: &&(String, String)| {
+        let there = now.iter().find(|(name, _)| *name == own.0);
+        there.is_none_or(|there| usual.contains(there))
+    };
+    let lost = before.iter().filter(is_lost).filter(is_reset);
+    lost.map(|(name, word)| format!("{name}={word}")).collect()
 }
 
 /// Leaves out what this part of the clip, or these layers, do not have.

@@ -1,17 +1,20 @@
 //! `--pin-from`: keys that a person marked in a file, a table, a sheet or a digital timesheet.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use super::console::counted;
 use super::corrections::Corrections;
 use super::failure::Failure;
 use super::format_args::Formats;
-use super::{files, into_args, paths};
+use super::{files, into_args, paths, sheets};
 use genga::edits::{Edits, Pin};
 use genga::error::Error;
+use genga::motion::Clip;
 use genga::pipeline::Engine;
 use genga::recipe::Recipe;
+use genga::sheet::Sheet;
 use genga::time::Frame;
+use genga_files::sheet_json::SheetFile;
 use genga_files::xdts::{self, Column, Exchange, Mark, Numbered};
 use genga_files::{Cut, Format, pins_from_sheet, pins_from_table, sheet_json};
 
@@ -170,7 +173,8 @@ pub(super) fn check_rate(
     Err(Failure::of_file(name, Error::sheet(message)))
 }
 
-/// Reads the keys of a timesheet as the frames that the clip's own sheet shows on those koma.
+/// Reads the keys of a timesheet as the frames that are shown on those koma: by the sheet that lies beside it, else by
+/// the sheet that this run would make without them.
 fn of_timesheet(
     bytes: &[u8],
     name: &Path,
@@ -185,9 +189,13 @@ fn of_timesheet(
         return Err(nothing_marked(name, column, numbered));
     }
     let frames = (engine.clip().first(), engine.clip().last());
+    let beside = beside(name, engine.clip(), file.length);
     // Computes the sheet without `only_pins`: the marked keys may be the only ones.
     let before = Edits { only_pins: false, ..edits.clone() };
-    let sheet = engine.run(recipe, &before)?.sheet;
+    let sheet = match &beside {
+        Some((_, sheet)) => sheet,
+        None => engine.run(recipe, &before)?.sheet,
+    };
     if file.length != sheet.cut_length() {
         return Err(Failure::AskedWrongly(format!(
             "{}: it has {} koma and the sheet of this clip {}, so its keys may stand on other koma here; was \
@@ -202,10 +210,24 @@ fn of_timesheet(
     let has_marks =
         column.changes.iter().any(|change| change.circled || change.mark == Mark::Inbetween);
     let mut notes: Vec<String> = into_args::unread(bytes, name)?.into_iter().collect();
+    notes.extend(
+        beside.map(|(path, _)| format!("its koma show what they do in {}", path.display())),
+    );
     if numbered == Numbered::Keys && !has_marks {
         notes.push("it has no inbetween marks, so every number on it is a key".into());
     }
     Ok(Marked { pins, column: column.name.clone(), notes })
+}
+
+/// Finds the sheet of the clip that a timesheet of `length` koma was made from, with its path.
+fn beside(timesheet: &Path, clip: &Clip, length: usize) -> Option<(PathBuf, Sheet)> {
+    let path = sheets::own_sheet(timesheet)?;
+    let file = sheet_json::read(&files::read(&path).ok()?).ok()?;
+    let SheetFile { sheet, clip: own, .. } = file;
+    let ends = [own.first_frame, own.last_frame()].map(Frame);
+    let is_of_clip =
+        own.frame_rate == clip.rate().fps() && ends.iter().all(|frame| clip.contains(*frame));
+    (is_of_clip && sheet.cut_length() == length).then_some((path, sheet))
 }
 
 /// Returns the column asked for, else the only one with a drawing, else column A, as genga names its own.

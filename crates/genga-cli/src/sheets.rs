@@ -66,7 +66,7 @@ pub(super) fn read(
 }
 
 /// Finds the sheet.json that a timesheet was made from: beside it, or up to two folders above, as in a cut folder.
-fn own_sheet(timesheet: &Path) -> Option<PathBuf> {
+pub(super) fn own_sheet(timesheet: &Path) -> Option<PathBuf> {
     near(timesheet).map(|folder| folder.join(SHEET)).find(|file| file.is_file())
 }
 
