@@ -56,10 +56,25 @@ fn the_short_options_take_lists_and_ranges() {
     assert_eq!(column(&table, "filter.width"), ["0.2s", "7"]);
     let short = place.done("study data/kick.bvh --filter-width 4..8:2 --persistence 2..3:1");
     assert_eq!(column(&short, "filter.width"), ["4", "4", "6", "6", "8", "8"]);
-    // The long options start from the recipe of a run, so the recipe of Table 1 is given too.
-    fs::write(place.path("table-1.toml"), place.done("recipe --study")).unwrap();
-    let long = "study data/kick.bvh --recipe table-1.toml --x filter.width=4,6,8 --y turns.persistence=2,3";
+    // The same axes are the same study however they are given.
+    let long = "study data/kick.bvh --x filter.width=4,6,8 --y turns.persistence=2,3";
     assert_eq!(place.done(long), short);
+    let turned = place.done("study data/kick.bvh --y filter.width=4,6,8 --x turns.persistence=2,3");
+    let sorted = |table: &str| {
+        let mut counts = column(table, "union");
+        counts.sort();
+        counts
+    };
+    assert_eq!(sorted(&turned), sorted(&short));
+    let said = |args: &str| text(&place.genga(&format!("study data/kick.bvh {args}")).stderr);
+    assert!(
+        said("--filter-width 4 --persistence 2").contains("that of Table 1 (genga recipe --study)")
+    );
+    for args in ["--x filter.width=4", "--x filter.width=4,5 --y turns.persistence=2 --stability"] {
+        assert!(said(args).contains("recipe      設定       that of genga run"), "{args}");
+    }
+    fs::write(place.path("own.toml"), "[keys]\nmin_price = 3\n").unwrap();
+    assert!(said("--x filter.width=4 --recipe own.toml").contains("設定       own.toml"));
 }
 
 #[test]
@@ -225,7 +240,7 @@ fn stability_compares_cells_and_names_the_plateau() {
     // A koma is a frame in this clip, and a key that moved further counts as another.
     assert!(numbers(&table, "largest_move").iter().all(|frames| *frames <= 1.0));
     let lines: Vec<&str> = said.lines().collect();
-    let lines = &lines[2..];
+    let lines = &lines[3..];
     assert_eq!((lines.len(), lines[3]), (4, "files       h.svg"), "{said}");
     assert!(lines[1].starts_with("kick: the very same keys at filter.width "), "{said}");
     assert!(lines[2].starts_with("kick: the same keys within 1 koma at filter.width "), "{said}");
@@ -254,8 +269,10 @@ fn stability_compares_cells_and_names_the_plateau() {
     let exact = place.done(&format!("{args} --stability --tolerance 0 -q"));
     assert!(numbers(&exact, "largest_move").iter().all(|frames| *frames == 0.0));
     // Without --stability only the frames are said in seconds, and the keys are the same.
-    let plain = place.genga(args);
-    assert!(text(&plain.stderr).lines().all(|line| line.starts_with("seconds ")));
+    fs::write(place.path("run.toml"), place.done("recipe")).unwrap();
+    let plain = place.genga(&format!("{args} --recipe run.toml"));
+    let is_told = |line: &str| line.starts_with("recipe ") || line.starts_with("seconds ");
+    assert!(text(&plain.stderr).lines().all(is_told));
     assert_eq!(numbers(&text(&plain.stdout), "genga"), numbers(&table, "genga"));
     // The named region has a constant number of keys.
     let (columns, rows) =
@@ -291,15 +308,15 @@ fn plateaus_are_named_of_each_clip_and_of_all() {
     let axis = "--x keys.per_second=2,2.01,2.02,2.03 --measure genga --stability";
     let said = text(&place.genga(&format!("study {clips} {axis}")).stderr);
     let begins: Vec<&str> =
-        said.lines().skip(1).map(|line| line.split(':').next().unwrap()).collect();
+        said.lines().skip(2).map(|line| line.split(':').next().unwrap()).collect();
     assert_eq!(begins, ["kick", "kick", "pitch", "pitch", "all clips", "all clips"], "{said}");
     // A clip's lines are the same as for it alone; the line of all covers the keys of both.
     let alone = text(&place.genga(&format!("study data/pitch.bvh {axis}")).stderr);
     let lines = |said: &str, from: usize| -> Vec<String> {
         said.lines().skip(from).take(2).map(str::to_owned).collect()
     };
-    assert_eq!(lines(&said, 3), lines(&alone, 1));
-    assert!(lines(&said, 5).iter().all(|line| line.contains("keys.per_second ")), "{said}");
+    assert_eq!(lines(&said, 4), lines(&alone, 2));
+    assert!(lines(&said, 6).iter().all(|line| line.contains("keys.per_second ")), "{said}");
 }
 
 #[test]

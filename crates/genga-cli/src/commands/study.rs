@@ -42,19 +42,16 @@ pub(super) struct StudyArgs {
     part: Part,
     #[command(flatten)]
     settings: Settings,
-    /// Setting to vary and its values, in the recipe of `genga run` [default: filter.width=10,20,30 in the recipe of
-    /// Table 1].
+    /// Setting to vary and its values [default: filter.width=10,20,30].
     #[arg(long, value_name = "KNOB=VALUES")]
     x: Option<Axis>,
     /// Second setting to vary, for each value of the first [default: turns.persistence=5,10; none with --x].
     #[arg(long, value_name = "KNOB=VALUES")]
     y: Option<Axis>,
-    /// Filter widths of a Table 1 study, in source frames or seconds. Like --x filter.width=VALUES, but in the recipe
-    /// of Table 1.
+    /// Filter widths, in source frames or seconds: --x filter.width=VALUES.
     #[arg(long, value_name = "VALUES", value_parser = filter_width, conflicts_with = "x")]
     filter_width: Option<Axis>,
-    /// Persistences of a Table 1 study, in source frames or seconds. Like --y turns.persistence=VALUES, but in the
-    /// recipe of Table 1 unless --x is given.
+    /// Persistences, in source frames or seconds: --y turns.persistence=VALUES.
     #[arg(long, value_name = "VALUES", value_parser = persistence, conflicts_with = "y")]
     persistence: Option<Axis>,
     /// Kind of filter.
@@ -112,8 +109,9 @@ fn study_help() -> String {
     format!(
         "Axes:\n  KNOB is any setting of `genga recipe`, or noise (degrees of Gaussian noise on every rotation) \
          or\n  noise.seed. VALUES is a list; FROM..TO:STEP is a range, which includes TO if a step lands on \
-         it.\n  Values keep their units: 0.1s..0.5s:0.05s. Without --x and --y, the recipe is that of \
-         Table 1 of the first\n  paper (`genga recipe --study`); with them, that of `genga run`.\n\n\
+         it.\n  Values keep their units: 0.1s..0.5s:0.05s. With the axes of Table 1 of the first paper, \
+         filter.width and\n  turns.persistence, the recipe is that of Table 1 (`genga recipe --study`), else and \
+         with --stability\n  that of `genga run`; --recipe goes over both.\n\n\
          Measures:{}\n\n\
          Examples:\n  genga study a.bvh --filter-width 5..40:5 --persistence 1..20:1 --heat map.svg\n  \
          genga study a.bvh b.bvh --x keys.min_price=2..20:2 --plot curves.pdf\n  \
@@ -178,6 +176,12 @@ pub(super) fn run(args: &StudyArgs, words: &Words) -> Result<(), Failure> {
         files::write(path, drawn.caption(&study, &names, &grids).as_bytes())?;
     }
     files::write(&args.out, genga_files::study_csv(&names, &grids, tolerance)?.as_bytes())?;
+    let begins = match (&args.settings.recipe, is_table_1(args, &study.x, study.y.as_ref())) {
+        (Some(path), _) => path.display().to_string(),
+        (None, true) => "that of Table 1 (genga recipe --study)".into(),
+        (None, false) => "that of genga run".into(),
+    };
+    words.say(format_args!("recipe      設定       {begins}"));
     seconds::lines(&study, &rates).iter().for_each(|line| words.say(line));
     if let Some(plateaus) = plateaus {
         say_plateaus(words, &names, &grids, &plateaus);
@@ -240,13 +244,13 @@ fn sentence(grid: &Grid, koma: f64, plateau: Option<&Plateau>) -> String {
 }
 
 fn asked(args: &StudyArgs) -> Result<Study, Failure> {
-    let is_table_1 = args.x.is_none() && args.y.is_none();
-    let base = if is_table_1 { study::table_1_recipe() } else { Recipe::default() };
+    let (x, y) = axes(args)?;
+    let base =
+        if is_table_1(args, &x, y.as_ref()) { study::table_1_recipe() } else { Recipe::default() };
     let (mut recipe, _) = args.settings.read(base)?;
     if let Some(kind) = &args.filter {
         recipe.set("filter.kind", kind)?;
     }
-    let (x, y) = axes(args)?;
     for axis in [Some(&x), y.as_ref()].into_iter().flatten() {
         not_set_too(args, axis)?;
     }
@@ -263,6 +267,12 @@ fn asked(args: &StudyArgs) -> Result<Study, Failure> {
         Study { recipe, x, y, measures, keep_keys: args.stability, budget: args.part.budget() };
     study.validate()?;
     Ok(study)
+}
+
+/// Whether the study begins with the recipe of Table 1: it has its axes, and counts. How steady keys are is asked of the
+/// recipe that finds them.
+fn is_table_1(args: &StudyArgs, x: &Axis, y: Option<&Axis>) -> bool {
+    study::is_table_1(x, y) && !args.stability
 }
 
 /// The axes to vary; Table 1 of the paper by default.
