@@ -87,7 +87,7 @@ pub(super) fn lines(sheet: &Sheet, name: &str) -> Vec<String> {
     if !slate.is_empty() {
         let guess =
             if of_name.is_empty() { "" } else { " (numbers not given: from the file's name)" };
-        lines.push(format!("slate       カチンコ   {slate}{guess}"));
+        lines.push(format!("slate       カット情報 {slate}{guess}"));
     }
     if !sheet.blank.is_none() {
         lines.push(format!("blank       カラ       {}", blank(sheet)));

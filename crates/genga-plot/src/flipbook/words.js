@@ -27,7 +27,7 @@ const WORDS = {
     frame: "素材フレーム", loop: "ループ", onion: "オニオンスキン", keys: "原画のみ", follow: "追う",
     shown: "表示", camera: "カメラ", speed: "速さ", close: "閉じる", keys_title: "キー操作",
     front: "正面", side: "側面", "three-quarter": "斜め", auto: "自動", turned: "手動",
-    genga: "原画", inbetween: "中割り", end: "両端", of: "/", play: "再生", stop: "停止",
+    genga: "原画", inbetween: "中割り", end: "端", of: "/", play: "再生", stop: "停止",
     "koma-back": "1コマ戻る", "koma-on": "1コマ進む", "drawing-back": "1枚戻る", "drawing-on": "1枚進む",
     scrub: "コマ", column: "シートの列、クリックでそのコマへ", stage: "人物、ドラッグで回す",
     length: (take) => `尺 ${take.length}（${take.koma}コマ）`, between: "　",

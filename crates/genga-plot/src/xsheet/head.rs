@@ -80,7 +80,7 @@ fn counts(leaves: &[Leaf<'_>], sheet: &Sheet) -> Vec<String> {
     }
     if lines.len() < 2 {
         lines.push(format!(
-            "{} koma at {} a second  ·  koma count from 1 and run on from page to page",
+            "{} koma at {} a second  ·  コマ番号は1から通し koma count from 1 and run on from page to page",
             sheet.cut_length(),
             sheet.clock.koma_rate
         ));
@@ -97,7 +97,7 @@ fn count(leaf: &Leaf<'_>) -> String {
     let mean = layer.length() as f64 / drawings.max(1) as f64;
     format!(
         "{}:  原画 genga {} ({} ends 端 among them)  ·  動画 drawings {drawings}, inbetweens 中割り {}  ·  \
-         平均 mean {mean:.1} koma a drawing  ·  longest hold {} koma",
+         平均 mean {mean:.1} koma a drawing  ·  最長の止め longest hold {} koma",
         layer.name,
         leaf.layer.genga(),
         layer.count(Role::End),
@@ -117,7 +117,7 @@ pub(super) fn legend(canvas: &mut Canvas, page: &Page<'_>) {
         (Sign::Inbetween, "inbetween 中割り"),
         (Sign::Hold, "hold 止メ (over 3 koma)"),
         (Sign::Blank, "blank カラ"),
-        (Sign::CarriedOver, "from the half before"),
+        (Sign::CarriedOver, "前段から from the half before"),
     ] {
         sign(canvas, page, mark, (x, y));
         canvas.text(words, (x + 13.0, y + 4.0), Type::new(11.0));
