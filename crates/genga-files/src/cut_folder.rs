@@ -6,7 +6,7 @@ use super::xdts::column;
 use super::{Cut, Settings, Sink, xsheet};
 use genga::error::Error;
 use genga::sheet::{Layer, Number};
-use genga_plot::NumberedImages;
+use genga_plot::{ColumnPictures, NumberedImages};
 
 /// The version of `cut.json`, stored in the file.
 const SCHEMA: &str = "genga-cut-1";
@@ -65,15 +65,15 @@ pub(super) fn write(cut: &Cut<'_>, settings: &Settings, put: &mut Sink<'_>) -> R
     let transparent = settings.images.transparent || cut.sheet.layers.len() > 1;
     let body = settings.figures.body;
     let images = NumberedImages { transparent, body, ..settings.images.clone() };
-    images.draw_columns(cut.clip, cut.sheet, |layer, drawing, png| {
-        let column = &mut columns[layer];
-        if let Some(number) = &genga[layer][drawing] {
-            put(&at(&picture(GENGA, &column.folder, number)), &png)?;
+    images.draw_columns(cut.clip, cut.sheet, |own: ColumnPictures| {
+        let column = &mut columns[own.layer];
+        if let (Some(number), Some(png)) = (&genga[own.layer][own.drawing], &own.genga) {
+            put(&at(&picture(GENGA, &column.folder, number)), png)?;
             column.genga.push(number.clone());
         }
-        let number = &douga[layer][drawing];
+        let number = &douga[own.layer][own.drawing];
         column.douga.push(number.clone());
-        put(&at(&picture(DOUGA, &column.folder, number)), &png)
+        put(&at(&picture(DOUGA, &column.folder, number)), &own.douga)
     })?;
     let (koma, fps) = (cut.sheet.cut_length(), cut.sheet.clock.koma_rate);
     let genga = env!("CARGO_PKG_VERSION");

@@ -3,6 +3,8 @@
 #[cfg(feature = "images")]
 mod draw;
 
+pub use draw::ColumnPictures;
+
 use serde::{Deserialize, Serialize};
 
 use crate::figure::FigureBody;

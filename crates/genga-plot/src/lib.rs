@@ -59,7 +59,7 @@ pub use flipbook::FlipBook;
 pub use genga::motion::Camera;
 pub use heat::HeatMap;
 pub use hierarchy::SkeletonPlot;
-pub use images::NumberedImages;
+pub use images::{ColumnPictures, NumberedImages};
 pub use onion::OnionSkin;
 pub use pose_row::PoseRow;
 pub use preview::Preview;

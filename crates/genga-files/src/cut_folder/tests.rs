@@ -10,6 +10,11 @@ use genga::recipe::Recipe;
 
 /// The kick's cut folder with the given layers, as small pictures.
 fn folder(layers: &str) -> BTreeMap<String, Vec<u8>> {
+    folder_with(layers, &[])
+}
+
+/// The same with some settings.
+fn folder_with(layers: &str, own: &[(&str, &str)]) -> BTreeMap<String, Vec<u8>> {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../data/kick.bvh");
     let clip = bvh::open(path.as_ref()).unwrap().clip;
     let mut recipe = Recipe::default();
@@ -31,6 +36,7 @@ fn folder(layers: &str) -> BTreeMap<String, Vec<u8>> {
     settings.set("images.height", "90").unwrap();
     // Seen from the front no limb hides another.
     settings.set("images.camera", "front").unwrap();
+    own.iter().for_each(|(name, value)| settings.set(name, value).unwrap());
     let mut files = BTreeMap::new();
     let mut put = |name: &str, bytes: &[u8]| {
         assert!(files.insert(name.to_owned(), bytes.to_vec()).is_none(), "{name} twice");
@@ -133,4 +139,27 @@ fn a_column_has_its_own_joints_alone_and_all_columns_together_the_body() {
     let together: BTreeSet<usize> = columns.into_iter().flatten().collect();
     let missing = whole.difference(&together).count();
     assert!(missing * 20 < whole.len(), "{missing} of {} are missing", whole.len());
+}
+
+#[test]
+fn marked_pictures_show_the_number_that_their_sheet_has() {
+    let marked = folder_with("body", &[("images.marks", "true")]);
+    let picture = |name: &str| &marked[&format!("c012/{name}.png")];
+    let list: Value = serde_json::from_slice(&marked["c012/cut.json"]).unwrap();
+    assert_eq!(
+        (&list["columns"][0]["genga"][1], &list["columns"][0]["douga"][1]),
+        (&2.into(), &2.into())
+    );
+    // The first genga is also the first drawing. The second is a later one, and so is every number behind it.
+    assert_eq!(picture("genga/A/A_0001"), picture("douga/A/A_0001"));
+    let douga: Vec<_> = marked.iter().filter(|(name, _)| name.contains("/douga/A/")).collect();
+    let genga: Vec<_> = marked.iter().filter(|(name, _)| name.contains("/genga/A/A_")).collect();
+    assert!(genga.len() > 5 && douga.len() > genga.len());
+    assert!(genga.iter().skip(1).all(|(_, own)| douga.iter().all(|(_, other)| own != other)));
+    let plain = folder("body");
+    let is_douga =
+        |own: &Vec<u8>| plain.iter().any(|(name, other)| name.contains("/douga/") && own == other);
+    assert!(
+        plain.iter().filter(|(name, _)| name.contains("/genga/A/A_")).all(|(_, own)| is_douga(own))
+    );
 }

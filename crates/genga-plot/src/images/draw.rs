@@ -22,6 +22,19 @@ const SAFE: f64 = 0.05;
 /// Number of images that are drawn at once: work for many cores, and little memory.
 const AT_ONCE: usize = 64;
 
+/// The pictures of a drawing in a column of its own, as PNG.
+#[derive(Debug, Clone)]
+pub struct ColumnPictures {
+    /// Index of its layer, from 0.
+    pub layer: usize,
+    /// Its own index in the layer, from 0.
+    pub drawing: usize,
+    /// The picture among all drawings; marks show its number in CELL.
+    pub douga: Vec<u8>,
+    /// The picture among the genga; marks show its number in ACTION. `None` for an inbetween.
+    pub genga: Option<Vec<u8>>,
+}
+
 /// Stage, backdrop and digits of all images.
 struct Easel {
     stage: Stage,
@@ -37,6 +50,26 @@ impl Easel {
             self.picture(pixels, drawn, number)
         };
         figures.par_iter().map_init(|| self.backdrop.clone(), draw).collect()
+    }
+
+    /// Draws some drawings of a layer, each with its number among all drawings and among the genga.
+    fn of_column(
+        &self,
+        layer: usize,
+        poses: &[(usize, Drawn)],
+        (numbers, genga): (&[Number], &[Option<Number>]),
+    ) -> Result<Vec<ColumnPictures>, Error> {
+        let draw = |pixels: &mut Pixels, (drawing, drawn): &(usize, Drawn)| {
+            let (drawing, douga) = (*drawing, self.picture(pixels, drawn, &numbers[*drawing])?);
+            let genga = match &genga[drawing] {
+                None => None,
+                // Without numbers both are the same picture.
+                Some(_) if self.number.is_none() => Some(douga.clone()),
+                Some(number) => Some(self.picture(pixels, drawn, number)?),
+            };
+            Ok(ColumnPictures { layer, drawing, douga, genga })
+        };
+        poses.par_iter().map_init(|| self.backdrop.clone(), draw).collect()
     }
 
     fn picture(
@@ -109,9 +142,8 @@ impl NumberedImages {
         })
     }
 
-    /// Draws each column alone, with only the parts of the body that its joints turn. Passes each drawing
-    /// that is on screen to `take`, with the index of its layer and its own, from 0. All images fit on each
-    /// other.
+    /// Draws each column alone, with only the parts of the body that its joints turn. Passes the pictures of each drawing
+    /// that is on screen to `take`. All images fit on each other.
     ///
     /// # Errors
     /// As [`NumberedImages::draw`].
@@ -119,22 +151,22 @@ impl NumberedImages {
         &self,
         clip: &Clip,
         sheet: &Sheet,
-        mut take: impl FnMut(usize, usize, Vec<u8>) -> Result<(), E>,
+        mut take: impl FnMut(ColumnPictures) -> Result<(), E>,
     ) -> Result<(), E> {
         self.set_up(clip, sheet, |composite, easel, placing| {
             let columns = layer_of(clip.skeleton(), sheet)?;
             let on_screen: Vec<usize> = composite.layer().koma().collect();
-            for (column, layer) in sheet.layers.iter().enumerate() {
-                let own = columns.iter().map(|of| *of == column).collect();
+            for (at, layer) in sheet.layers.iter().enumerate() {
+                let own = columns.iter().map(|of| *of == at).collect();
                 let stage = Stage { figure: easel.stage.figure.only(own), ..easel.stage.clone() };
-                let numbers = layer.numbers();
+                let numbers = (layer.numbers(), layer.genga_numbers());
                 for some in first_shown(layer).chunks(AT_ONCE) {
-                    let figure = |(drawing, koma): &(usize, usize)| {
-                        (stage.draw(&placing.points(on_screen[*koma], *koma)), &numbers[*drawing])
+                    let pose = |(drawing, koma): &(usize, usize)| {
+                        (*drawing, stage.draw(&placing.points(on_screen[*koma], *koma)))
                     };
-                    let figures: Vec<_> = some.iter().map(figure).collect();
-                    for ((drawing, _), picture) in some.iter().zip(easel.pictures(&figures)?) {
-                        take(column, *drawing, picture)?;
+                    let poses: Vec<_> = some.iter().map(pose).collect();
+                    for own in easel.of_column(at, &poses, (&numbers.0, &numbers.1))? {
+                        take(own)?;
                     }
                 }
             }

@@ -101,8 +101,8 @@ fn images_of_a_loop_stand_where_its_first_round_has_come_to_behind_the_seam_too(
         let whole: Vec<_> =
             images(&small, &clip, &sheet).into_iter().map(|image| image.1).collect();
         let mut columns = vec![];
-        let take = |_, _, png| -> Result<(), Error> {
-            columns.push(png);
+        let take = |own: ColumnPictures| -> Result<(), Error> {
+            columns.push(own.douga);
             Ok(())
         };
         small.draw_columns(&clip, &sheet, take).unwrap();
