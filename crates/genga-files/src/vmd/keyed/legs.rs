@@ -1,0 +1,105 @@
+//! The legs whose IK (足ＩＫ, つま先ＩＫ) stays on: their feet have keys, and MMD bends the knees.
+
+use std::borrow::Cow;
+
+use glam::{DQuat, DVec3};
+
+use genga::error::Warning;
+use genga::motion::body::names::bones::{LONGEST_NAME, Side, cp932};
+use genga_read::MmdModel;
+
+/// Sine of the bend up to which a knee hardly shows the plane of its leg: 5°.
+const SCARCE: f64 = 0.09;
+
+/// A leg and its IK bones.
+pub(super) struct IkLeg {
+    /// Indices of 足, ひざ and 足首 among the keyed bones.
+    pub(super) joints: [usize; 3],
+    /// The bone that the ankle must reach (足ＩＫ).
+    pub(super) foot: String,
+    /// The bone that the toes must reach (つま先ＩＫ), if the model has it.
+    pub(super) toes: Option<String>,
+}
+
+/// The legs of a figure that keep their IK.
+pub(in super::super) struct IkLegs<'a> {
+    figure: Cow<'a, MmdModel>,
+    /// Size of the model, as a multiple of the figure's.
+    size: f64,
+    pub(super) legs: Vec<IkLeg>,
+}
+
+impl<'a> IkLegs<'a> {
+    /// Finds the legs, all of whose `bones` have keys and whose IK a VMD can name. Without a model they are those of the
+    /// usual figure, `leg` long.
+    pub(in super::super) fn new(model: Option<&'a MmdModel>, leg: f64, bones: &[&str]) -> Self {
+        let figure = model.map_or_else(|| Cow::Owned(MmdModel::usual()), Cow::Borrowed);
+        let size = figure.leg().map_or(1.0, |own| leg / own);
+        let of_side = |side: Side| {
+            let joints = ["足", "ひざ", "足首"].map(|bone| side.named(bone));
+            let ik = |joint: &String| {
+                let found = figure.ik_of(|bone| bone == joint);
+                found.into_iter().find(|ik| cp932(ik, LONGEST_NAME).is_ok())
+            };
+            let foot = ik(&joints[1])?;
+            let toes = ik(&joints[2]).filter(|toes| *toes != foot);
+            let find = |joint: &String| bones.iter().position(|bone| bone == joint);
+            let joints = [find(&joints[0])?, find(&joints[1])?, find(&joints[2])?];
+            Some(IkLeg { joints, foot, toes })
+        };
+        let legs = Side::BOTH.into_iter().filter_map(of_side).collect();
+        Self { figure, size, legs }
+    }
+
+    /// The names of the IK bones.
+    pub(in super::super) fn names(&self) -> Vec<String> {
+        self.legs
+            .iter()
+            .flat_map(|leg| std::iter::once(&leg.foot).chain(&leg.toes))
+            .cloned()
+            .collect()
+    }
+
+    /// Says which IK has keys, and how far knees are off on its account.
+    pub(in super::super) fn note(&self, error_of_knees: f64) -> Option<Warning> {
+        let message = format!(
+            "keys-vmd: {} have keys and are on; MMD bends the knees, which puts them up to {:.2} % of body height off",
+            self.names().join(", "),
+            100.0 * error_of_knees,
+        );
+        (!self.legs.is_empty()).then(|| Warning::new("W_VMD_IK", message))
+    }
+
+    /// The start of a bone of the model at rest, in MMD units.
+    pub(super) fn place(&self, bone: &str) -> DVec3 {
+        self.size * self.figure.place(bone).unwrap_or_default()
+    }
+
+    /// The names of the ancestors of a bone, the nearest first.
+    pub(super) fn above(&self, bone: &str) -> impl Iterator<Item = &str> {
+        self.figure.find(bone).into_iter().flat_map(|bone| self.figure.above(bone))
+    }
+}
+
+/// Turns a thigh about itself so that a knee, which MMD bends about the thigh's X axis alone, takes the shin to where it
+/// is. `along` is the sideways part of the shin at rest. A leg that is nearly straight keeps its turn.
+pub(super) fn rolled(thigh: DQuat, [way, shin]: [DVec3; 2], along: f64) -> DQuat {
+    let (Some(way), Some(shin)) = (way.try_normalize(), shin.try_normalize()) else {
+        return thigh;
+    };
+    let hinge = thigh * DVec3::X;
+    let across = hinge.reject_from_normalized(way);
+    let (a, b) = (shin.dot(across), shin.dot(way.cross(across)));
+    let most = a.hypot(b);
+    let wanted = along - hinge.dot(way) * way.dot(shin);
+    if most <= wanted.abs() {
+        return thigh;
+    }
+    // The shin's part along the hinge after a turn by an angle is most · cos(angle − middle).
+    let (middle, apart) = (b.atan2(a), (wanted / most).acos());
+    let near = |angle: f64| angle.sin().atan2(angle.cos());
+    let [one, other] = [near(middle + apart), near(middle - apart)];
+    let angle = if one.abs() < other.abs() { one } else { other };
+    let bend = way.cross(shin).length_squared();
+    DQuat::from_axis_angle(way, angle * bend / (bend + SCARCE * SCARCE)) * thigh
+}
