@@ -103,3 +103,42 @@ pub(super) fn rolled(thigh: DQuat, [way, shin]: [DVec3; 2], along: f64) -> DQuat
     let bend = way.cross(shin).length_squared();
     DQuat::from_axis_angle(way, angle * bend / (bend + SCARCE * SCARCE)) * thigh
 }
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    /// Turns about an axis of −1 to 1 and by an angle.
+    fn turn() -> impl Strategy<Value = DQuat> {
+        prop::array::uniform3(-2.0..2.0)
+            .prop_map(|[x, y, z]| DQuat::from_euler(glam::EulerRot::XYZ, x, y, z))
+    }
+
+    proptest! {
+        #[test]
+        fn a_thigh_that_is_turned_about_itself_is_turned_back(
+            thigh in turn(),
+            off in -1.2..1.2,
+            bend in 0.6..2.4,
+            sideways in -0.1..0.1,
+        ) {
+            let [own, shin] = [[0.1, -0.9, 0.05], [sideways, -1.0, -0.1]].map(|way| DVec3::from_array(way).normalize());
+            let ways = [thigh * own, thigh * DQuat::from_rotation_x(bend) * shin];
+            let turned = DQuat::from_axis_angle(ways[0], off) * thigh;
+            let found = rolled(turned, ways, shin.x);
+            prop_assert!((found * own).abs_diff_eq(ways[0], 1e-9), "the thigh keeps its way");
+            let left = found.angle_between(thigh);
+            prop_assert!(left < 0.1 * f64::abs(off) + 1e-6, "{left} of {off} is left");
+        }
+    }
+
+    #[test]
+    fn a_straight_leg_keeps_its_turn() {
+        let thigh = DQuat::from_rotation_y(0.7);
+        let ways = [DVec3::NEG_Y, DVec3::new(0.001, -1.0, 0.0)];
+        assert!(rolled(thigh, ways, 0.0).angle_between(thigh) < 1e-3);
+        assert_eq!(rolled(thigh, [DVec3::NEG_Y, DVec3::ZERO], 0.0), thigh);
+    }
+}

@@ -136,11 +136,13 @@ fn furthest(clip: &Clip, vmd: &Vmd, error: f64) -> [f64; 3] {
         let take = Played { body, bones: &taken, frame };
         for side in ["左", "右"] {
             let ([knee, ankle], foot) = made.brought(side);
-            let [(_, wanted_knee), (turn, wanted)] =
-                ["ひざ", "足首"].map(|bone| take.world(&format!("{side}{bone}")));
+            let [(hip, top), (_, middle), (turn, wanted)] =
+                ["足", "ひざ", "足首"].map(|bone| take.world(&format!("{side}{bone}")));
+            // MMD bends no knee to the front, as some captures do a little.
+            let is_over = (hip * DVec3::X).dot((middle - top).cross(wanted - middle)) > 0.0;
             let off = [
                 unit * ankle.distance(wanted),
-                unit * knee.distance(wanted_knee),
+                if is_over { 0.0 } else { unit * knee.distance(middle) },
                 0.05 * foot.angle_between(turn),
             ];
             for (most, off) in most.iter_mut().zip(off) {
@@ -153,7 +155,7 @@ fn furthest(clip: &Clip, vmd: &Vmd, error: f64) -> [f64; 3] {
 
 #[test]
 fn legs_are_where_the_take_has_them() {
-    for (name, clip) in clips().into_iter().filter(|(_, clip)| clip.len() < 700) {
+    for (name, clip) in clips().into_iter().filter(|(_, clip)| clip.len() < 1200) {
         for (kind, vmd) in [("usual", Vmd::default()), ("given", given(&written()))] {
             let off = furthest(&clip, &vmd, 0.01);
             assert!(off.iter().all(|off| *off <= 0.01), "{name} on the {kind} body: {off:?}");
