@@ -1,10 +1,12 @@
 //! The legs whose IK (足ＩＫ, つま先ＩＫ) stays on: their feet have keys, and MMD bends the knees.
 
 use std::borrow::Cow;
+use std::f64::consts::TAU;
 
 use glam::{DQuat, DVec3};
 
 use genga::error::Warning;
+use genga::maths;
 use genga::motion::body::names::bones::{LONGEST_NAME, Side, cp932};
 use genga_read::MmdModel;
 
@@ -90,14 +92,14 @@ pub(super) fn rolled(thigh: DQuat, [way, shin]: [DVec3; 2], along: f64) -> DQuat
     let hinge = thigh * DVec3::X;
     let across = hinge.reject_from_normalized(way);
     let (a, b) = (shin.dot(across), shin.dot(way.cross(across)));
-    let most = a.hypot(b);
+    let most = maths::hypot(a, b);
     let wanted = along - hinge.dot(way) * way.dot(shin);
     if most <= wanted.abs() {
         return thigh;
     }
     // The shin's part along the hinge after a turn by an angle is most · cos(angle − middle).
-    let (middle, apart) = (b.atan2(a), (wanted / most).acos());
-    let near = |angle: f64| angle.sin().atan2(angle.cos());
+    let (middle, apart) = (maths::atan2(b, a), maths::acos(wanted / most));
+    let near = |angle: f64| angle - TAU * (angle / TAU).round();
     let [one, other] = [near(middle + apart), near(middle - apart)];
     let angle = if one.abs() < other.abs() { one } else { other };
     let bend = way.cross(shin).length_squared();
