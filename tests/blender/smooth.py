@@ -12,6 +12,8 @@ import bpy
 import numpy as np
 
 FOLDER = Path(sys.argv[1])
+# A curve that varies by less moves by rounding alone.
+STILL = 1e-4
 # Powers of ten between which the error margin is searched, and how often their distance is halved.
 MARGINS, HALVINGS = (-4.0, 0.0), 8
 
@@ -35,7 +37,7 @@ def places(thing):
 
 
 def curves(action):
-    return [curve for curve in action.fcurves if np.ptp(values(curve)) > 0]
+    return [curve for curve in action.fcurves if np.ptp(values(curve)) > STILL]
 
 
 def values(curve):
@@ -54,7 +56,6 @@ def prepare(thing):
     moving = {(curve.data_path, curve.array_index) for curve in curves(action)}
     for curve in list(action.fcurves):
         if (curve.data_path, curve.array_index) not in moving:
-            curve.keyframe_points.foreach_set("select_control_point", [False] * len(curve.keyframe_points))
             action.fcurves.remove(curve)
     for curve in action.fcurves:
         for point in curve.keyframe_points:
