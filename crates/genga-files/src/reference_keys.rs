@@ -190,7 +190,9 @@ mod tests {
         };
         let keys = frames.map(key).collect();
         let (faces, shown) = (vec![], vec![]);
-        VmdMotion { model: "人形".into(), keys, ik_off: vec![], faces, shown }.bytes().unwrap()
+        VmdMotion { model: "人形".into(), keys, ik_on: vec![], ik_off: vec![], faces, shown }
+            .bytes()
+            .unwrap()
     }
 
     #[test]

@@ -31,6 +31,7 @@ use genga::motion::{Clip, Composite, JointId, Skeleton, played_out};
 use genga::sheet::{Blank, Exposure, Sheet, Source};
 pub use genga_read::MmdModel;
 use genga_read::VmdBeside;
+use keyed::IkLegs;
 use passed::Passing;
 pub use record::{VmdCameraMotion, VmdFaceKey, VmdKey, VmdMotion};
 
@@ -208,7 +209,7 @@ impl Vmd {
         let frames = Frames::new(self.fps, sheet.clock.koma_rate)?;
         let write = |retarget: &mut Retarget<'_>| {
             let keys = keys(&composite, (&frames, sheet.blank), retarget)?;
-            Ok((keys, None))
+            Ok(Written { keys, ik_on: Vec::new(), notes: Vec::new() })
         };
         let made = self.made(&composite, sheet, write)?;
         let (timeline, in_koma) = (Timeline::new(own, self.others), frames.in_koma);
@@ -238,9 +239,11 @@ impl Vmd {
         }
         let composite = Composite::new(clip, &ones)?;
         let write = |retarget: &mut Retarget<'_>| {
-            let made = keyed::keyed(clip, retarget, (&genga, length), curves.error);
+            let legs = self.ik_legs(retarget);
+            let made = keyed::keyed(clip, (retarget, &legs), (&genga, length), curves.error);
             let note = curves.note("keys-vmd", made.frames, made.added, made.error_of_genga);
-            Ok((made.keys, note))
+            let notes = note.into_iter().chain(legs.note(made.error_of_knees));
+            Ok(Written { keys: made.keys, ik_on: legs.names(), notes: notes.collect() })
         };
         let made = self.made(&composite, &ones, write)?;
         let pace = clip.rate().fps() / self.fps;
@@ -248,12 +251,20 @@ impl Vmd {
         made.passing(kept(clip), &Passing { timeline: &timeline, in_koma: 1.0 })
     }
 
-    /// Makes a motion of the keys that `write` writes, with its note if it has one.
+    /// The legs that MMD brings to keyed feet.
+    fn ik_legs(&self, retarget: &Retarget<'_>) -> IkLegs<'_> {
+        let bones = retarget.bones();
+        let bones: Vec<&str> = bones.into_iter().map(|bone| retarget.name(bone)).collect();
+        let leg = self.body.as_ref().and_then(MmdModel::leg).unwrap_or(self.leg);
+        IkLegs::new(self.body.as_ref(), leg, &bones)
+    }
+
+    /// Makes a motion of the keys that `write` writes.
     fn made(
         &self,
         composite: &Composite<'_>,
         sheet: &Sheet,
-        write: impl FnOnce(&mut Retarget<'_>) -> Result<(Vec<VmdKey>, Option<Warning>), Error>,
+        write: impl FnOnce(&mut Retarget<'_>) -> Result<Written, Error>,
     ) -> Result<VmdMade, Error> {
         let clip = composite.clip();
         let cast = self.cast(clip)?;
@@ -265,10 +276,11 @@ impl Vmd {
         let report = report(clip.skeleton(), model, found, retarget.scale);
         let (name, _) = self.name()?;
         let mut notes = self.notes(clip, sheet)?;
-        let (keys, note) = write(&mut retarget)?;
-        notes.extend(note);
+        let Written { keys, ik_on, notes: own } = write(&mut retarget)?;
+        notes.extend(own);
+        let ik_off = cast.ik_off.into_iter().filter(|ik| !ik_on.contains(ik)).collect();
         let (faces, shown) = (Vec::new(), Vec::new());
-        let motion = VmdMotion { model: name, keys, ik_off: cast.ik_off, faces, shown };
+        let motion = VmdMotion { model: name, keys, ik_on, ik_off, faces, shown };
         Ok(VmdMade { motion, camera: None, report, notes })
     }
 
@@ -346,6 +358,14 @@ impl VmdMade {
         }
         Ok(self)
     }
+}
+
+/// The keys of a motion.
+struct Written {
+    keys: Vec<VmdKey>,
+    /// The IK that brings legs to their feet.
+    ik_on: Vec<String>,
+    notes: Vec<Warning>,
 }
 
 /// What a VMD holds beside the body of a clip.
@@ -452,7 +472,10 @@ fn posed<'a>(
     pose: &'a [Local],
     frame: u32,
 ) -> impl Iterator<Item = VmdKey> + 'a {
-    bones.iter().zip(pose).map(move |(bone, local)| retarget.key(*bone, frame, *local))
+    bones
+        .iter()
+        .zip(pose)
+        .map(move |(bone, local)| VmdKey::new(retarget.name(*bone), frame, *local))
 }
 
 /// Keys the centre on each koma after the first of an exposure.
@@ -465,19 +488,19 @@ fn slide(
     let center = retarget.bones()[0];
     let key = |koma: usize| {
         let local = retarget.take(exposure.drawing, koma)[0];
-        Ok(retarget.key(center, frames.frame_at(blank.before + koma)?, local))
+        Ok(VmdKey::new(retarget.name(center), frames.frame_at(blank.before + koma)?, local))
     };
     (begin + 1..begin + exposure.koma).map(key).collect()
 }
 
-impl Retarget<'_> {
+impl VmdKey {
     /// Converts a pose to MMD's left-handed axes, in which z is reversed.
-    fn key(&self, bone: usize, frame: u32, local: Local) -> VmdKey {
+    fn new(bone: &str, frame: u32, local: Local) -> Self {
         let Local { translation: t, rotation: q } = local;
         // Adding 0 turns −0 into 0.
         let single = |value: f64| value as f32 + 0.0;
-        VmdKey {
-            bone: self.name(bone).into(),
+        Self {
+            bone: bone.into(),
             frame,
             translation: [t.x, t.y, -t.z].map(single),
             rotation: [-q.x, -q.y, q.z, q.w].map(single),

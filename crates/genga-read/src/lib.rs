@@ -43,7 +43,7 @@ pub use gltf::{Carrier, GltfNode, GltfScene, GltfTrack};
 pub use gltf_camera::GltfCamera;
 pub use input_formats::{FORMATS, Format};
 pub use mmd::{
-    MORPH_NAME, MmdModel, VmdBeside, VmdCamera, VmdCameraKey, is_motion as is_vmd,
+    MORPH_NAME, MmdLeg, MmdModel, VmdBeside, VmdCamera, VmdCameraKey, is_motion as is_vmd,
     key_frames as vmd_key_frames,
 };
 pub use rates::KEY_FAR;

@@ -26,6 +26,7 @@ pub use camera::{VmdCamera, VmdCameraKey};
 use genga::error::{Error, Place, Warning};
 use genga::motion::{Beside, Clip, Declared};
 use genga::time::FrameRate;
+pub use legs::MmdLeg;
 pub use model::MmdModel;
 #[cfg(test)]
 mod test_models;

@@ -97,12 +97,16 @@ def keys_glb(path, _):
 
 
 def keys_vmd(path, _):
-    """Every bone has a key on the same frames."""
+    """Every bone has a key on the same frames, and IK bones with keys are on."""
+    read = pypmxvmd.load_vmd(str(path))
     frames = {}
-    for frame in pypmxvmd.load_vmd(str(path)).bone_frames:
+    for frame in read.bone_frames:
         frames.setdefault(frame.bone_name, []).append(frame.frame_number)
     (common,) = {tuple(numbers) for numbers in frames.values()}
     assert len(common) > 1, common
+    switches = {bone.bone_name: bone.ik_enabled for frame in read.ik_frames for bone in frame.ik_bones}
+    assert any(switches.values()), switches
+    assert all(is_on == (bone in frames) for bone, is_on in switches.items()), switches
 
 
 def vrma(path, sheet):

@@ -43,7 +43,9 @@ pub struct VmdMotion {
     pub model: String,
     /// Keys of bones, sorted by frame and then by bone.
     pub keys: Vec<VmdKey>,
-    /// Inverse kinematics (IK) switched off on frame 0, by the names of their bones.
+    /// Inverse kinematics (IK) switched on on frame 0, by the names of their bones.
+    pub ik_on: Vec<String>,
+    /// IK switched off on frame 0.
     pub ik_off: Vec<String>,
     /// Keys of morphs (表情), sorted by frame.
     pub faces: Vec<VmdFaceKey>,
@@ -136,7 +138,7 @@ pub struct VmdKey {
 
 impl VmdMotion {
     /// Encodes the file: signature, model, bone keys, morphs, no camera, no light, no self-shadow. Property records follow
-    /// if there is IK to switch off, or if the model is hidden at times.
+    /// if there is IK to switch, or if the model is hidden at times.
     ///
     /// # Errors
     /// [`Error::Setting`] if a name cannot be encoded in CP932 or is too long: 15 bytes for a bone,
@@ -165,18 +167,20 @@ impl VmdMotion {
     }
 
     fn write_properties(&self, bytes: &mut Vec<u8>) -> Result<(), Error> {
+        let on = self.ik_on.iter().map(|bone| (bone, true));
+        let switches: Vec<_> = on.chain(self.ik_off.iter().map(|bone| (bone, false))).collect();
         let mut shown = self.shown.clone();
-        if shown.first().is_none_or(|(frame, _)| *frame > 0) && !self.ik_off.is_empty() {
+        if shown.first().is_none_or(|(frame, _)| *frame > 0) && !switches.is_empty() {
             shown.insert(0, (0, true));
         }
         bytes.extend(count(shown.len())?);
         for (frame, is_shown) in shown {
             bytes.extend(frame.to_le_bytes());
             bytes.push(u8::from(is_shown));
-            bytes.extend(count(self.ik_off.len())?);
-            for bone in &self.ik_off {
+            bytes.extend(count(switches.len())?);
+            for (bone, is_on) in &switches {
                 bytes.extend(padded::<LONGEST_MODEL>(&cp932(bone, LONGEST_MODEL)?));
-                bytes.push(0);
+                bytes.push(u8::from(*is_on));
             }
         }
         Ok(())

@@ -4,6 +4,7 @@ mod body;
 mod file;
 mod given;
 mod keyed;
+mod legs;
 mod names;
 mod passed;
 mod reader;

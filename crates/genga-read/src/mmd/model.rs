@@ -8,6 +8,7 @@ pub(crate) mod tests;
 
 use glam::DVec3;
 
+use super::usual_skeleton::{self, RestBone};
 use bytes::{Bytes, damaged};
 use genga::error::Error;
 
@@ -54,6 +55,26 @@ impl MmdModel {
         }
     }
 
+    /// Returns a nameless figure of usual proportions, with the standard bones and the IK of the legs. Its legs are 9.7
+    /// units long.
+    pub fn usual() -> Self {
+        let mut bones: Vec<ModelBone> = Vec::new();
+        for RestBone { name, parent, place, tip } in usual_skeleton::bones() {
+            let depth = parent.map_or(0, |parent| bones[parent].depth + 1);
+            bones.push(ModelBone { name, parent, depth, place, tip });
+        }
+        let find = |name: String| bones.iter().position(|bone| bone.name == name);
+        let ik = |side: &str, ik: &str, links: &[&str]| {
+            let links = links.iter().filter_map(|link| find(format!("{side}{link}")));
+            Some(Ik { bone: find(format!("{side}{ik}"))?, links: links.collect() })
+        };
+        let legs = ["左", "右"].into_iter().flat_map(|side| {
+            [ik(side, "足ＩＫ", &["ひざ", "足"]), ik(side, "つま先ＩＫ", &["足首"])]
+        });
+        let ik = legs.flatten().collect();
+        Self { name: String::new(), bones, ik }
+    }
+
     /// The names of the bones, in the order of the file.
     pub fn bones(&self) -> impl Iterator<Item = &str> {
         self.bones.iter().map(|bone| &bone.name[..])
@@ -75,10 +96,14 @@ impl MmdModel {
         std::iter::successors(parent(&bone), parent).map(|bone| &self.bones[bone].name[..])
     }
 
+    /// The start of a bone at rest, in MMD units; +X is left, +Y up, +Z in front.
+    pub fn place(&self, name: &str) -> Option<DVec3> {
+        self.find(name).map(|bone| self.bones[bone].place)
+    }
+
     /// The vector from the start of one bone to the start of another.
     pub fn way(&self, from: &str, to: &str) -> Option<DVec3> {
-        let place = |name| self.find(name).map(|bone| self.bones[bone].place);
-        Some(place(to)? - place(from)?)
+        Some(self.place(to)? - self.place(from)?)
     }
 
     /// The length of a leg from 足 to 足首, averaged over both sides.

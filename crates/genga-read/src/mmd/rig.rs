@@ -4,6 +4,7 @@ use std::collections::HashSet;
 
 use glam::DVec3;
 
+use super::legs::MmdLeg;
 use super::model::MmdModel;
 use super::record::{Key, Motion};
 use super::usual_skeleton::{self, RestBone};
@@ -21,13 +22,7 @@ pub(super) struct RigBone {
 /// A leg solved by IK.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct LegIk {
-    /// Indices of hip, knee and ankle.
-    pub(super) joints: [usize; 3],
-    /// The bone that the ankle must reach.
-    pub(super) target: usize,
-    /// The vector from ankle to toes at rest, and the bone that the toes must reach; `None` if no IK turns
-    /// the foot.
-    pub(super) toes: Option<(DVec3, usize)>,
+    pub(super) leg: MmdLeg,
     /// The names of the two IK bones.
     pub(super) names: [String; 2],
 }
@@ -93,7 +88,7 @@ impl Rig {
         let ankle = self.bones[joints[2]].rest.place;
         let toes = toes.map(|toes| toes - ankle).filter(|way| way.length() > 0.0);
         let toes = toes.zip(self.find(&names[1]));
-        Some(LegIk { joints, target, toes, names })
+        Some(LegIk { leg: MmdLeg { joints, target, toes }, names })
     }
 
     /// Describes how the legs are moved.

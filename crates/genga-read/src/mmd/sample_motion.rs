@@ -2,9 +2,8 @@
 
 use glam::{DQuat, DVec3};
 
-use super::legs;
 use super::record::{Key, Motion};
-use super::rig::{Rig, RigBone};
+use super::rig::{LegIk, Rig, RigBone};
 use super::{CENTIMETRES, damaged};
 use genga::error::Error;
 use genga::motion::{
@@ -173,11 +172,11 @@ impl Stage {
         for index in 0..rig.bones.len() {
             self.place(rig, index, frame);
         }
-        for leg in &rig.legs {
-            if !is_on(&leg.names[0]) {
+        for LegIk { leg, names } in &rig.legs {
+            if !is_on(&names[0]) {
                 continue;
             }
-            legs::bring(leg, is_on(&leg.names[1]), &mut self.turns, &mut self.places);
+            leg.bring(is_on(&names[1]), &mut self.turns, &mut self.places);
             self.carry(rig, leg.joints[2], frame);
         }
     }

@@ -62,7 +62,7 @@ proptest! {
             curves,
         };
         let keys = keys.into_iter().map(key).collect();
-        let motion = VmdMotion { model, keys, ik_off: ik, faces: vec![], shown: vec![] };
+        let motion = VmdMotion { model, keys, ik_on: vec![], ik_off: ik, faces: vec![], shown: vec![] };
         prop_assert_eq!(read(&motion.bytes().unwrap()).motion, motion);
     }
 

@@ -12,7 +12,7 @@ use genga::time::KOMA_RATE;
 /// A model like those of MMD's first years: no 上半身2 and no 親指０, a グルーブ between センター and the body, arms that hang
 /// by 40° and bend forward at the elbow, legs that are not quite straight. Unusually, 下半身 is a child of 上半身, and the
 /// right arm a sibling of its collar bone. Positions are in MMD's axes.
-fn written() -> Written {
+pub(super) fn written() -> Written {
     let mut bones = vec![
         ("全ての親", None, [0.0, 0.0, 0.0]),
         ("センター", Some(0), [0.0, 8.0, 0.0]),
@@ -45,7 +45,7 @@ fn written() -> Written {
     Written { bones, ik }
 }
 
-fn given(written: &Written) -> Vmd {
+pub(super) fn given(written: &Written) -> Vmd {
     let file = written.pmx(Layout { is_utf8: false, width: 2 });
     let mut vmd = Vmd::default();
     vmd.play(MmdModel::read(&file).unwrap());

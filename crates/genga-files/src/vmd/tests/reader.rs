@@ -62,16 +62,22 @@ pub(super) fn read(bytes: &[u8]) -> Read {
     for section in ["morphs", "camera", "light", "self-shadow"] {
         assert_eq!(bytes.whole(), 0, "{section}");
     }
-    let (mut ik_off, mut visible) = (Vec::new(), Vec::new());
+    let (mut ik_on, mut ik_off, mut visible) = (Vec::new(), Vec::new(), Vec::new());
     for _ in 0..bytes.whole() {
         assert_eq!(bytes.whole(), 0, "the property record stands on frame 0");
         visible.push(bytes.take(1)[0]);
         for _ in 0..bytes.whole() {
-            ik_off.push(bytes.name(20));
-            assert_eq!(bytes.take(1), [0]);
+            let name = bytes.name(20);
+            match bytes.take(1) {
+                [1] => ik_on.push(name),
+                other => {
+                    assert_eq!(other, [0]);
+                    ik_off.push(name);
+                }
+            }
         }
     }
     assert!(bytes.0.is_empty(), "{} bytes are left", bytes.0.len());
-    let motion = VmdMotion { model, keys, ik_off, faces: vec![], shown: vec![] };
+    let motion = VmdMotion { model, keys, ik_on, ik_off, faces: vec![], shown: vec![] };
     Read { motion, interpolation, visible }
 }

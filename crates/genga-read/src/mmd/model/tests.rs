@@ -140,3 +140,14 @@ fn a_long_chain_of_bones_is_read_in_time() {
     let model = MmdModel::read(&Written { bones, ik: vec![] }.pmd()).unwrap();
     assert_eq!((model.depth(0), model.depth(COUNT - 1)), (COUNT - 1, 0));
 }
+
+#[test]
+fn the_usual_figure_stands_on_legs_with_ik() {
+    let usual = MmdModel::usual();
+    assert!((usual.leg().unwrap() - 9.7).abs() < 1e-12);
+    assert_eq!(usual.ik_of(|bone| bone == "右ひざ"), ["右足ＩＫ"]);
+    assert_eq!(usual.ik_of(|bone| bone == "左足首"), ["左つま先ＩＫ"]);
+    let ankle = usual.find("左足首").unwrap();
+    assert_eq!(usual.depth(ankle), usual.above(ankle).count());
+    assert_eq!(usual.place("左足ＩＫ"), usual.place("左足首"));
+}
