@@ -57,6 +57,28 @@ fn a_kick_is_on_ones_within_twos() {
 }
 
 #[test]
+fn a_run_says_what_omission_took_of_a_passage() {
+    let place = Place::new();
+    let within = "--within 30..60:spacing.on=1";
+    let said =
+        |more: &str| text(&place.genga(&format!("run data/kick.bvh {within} {more}")).stderr);
+    let lines = |said: &str| {
+        said.lines()
+            .filter(|line| line.starts_with("passage "))
+            .map(String::from)
+            .collect::<Vec<_>>()
+    };
+    let taken = lines(&said("--out a"));
+    assert_eq!(taken.len(), 1, "{taken:?}");
+    assert!(taken[0].starts_with("passage     区間       30..60: "), "{taken:?}");
+    assert!(taken[0].contains("--within 30..60:omission.koma_dori=0 keep them"), "{taken:?}");
+    let kept = "--within 30..60:omission.naka_nashi=0 --within 30..60:omission.koma_dori=0 --out b";
+    assert_eq!(lines(&said(kept)), ["passage     区間       30..60: 29 drawings on 29 koma"]);
+    assert_eq!(lines(&said("--layers limbs --out c")).len(), 5, "one a layer");
+    assert!(lines(&text(&place.genga("run data/kick.bvh --fresh --out d").stderr)).is_empty());
+}
+
+#[test]
 fn a_limb_is_on_threes_beside_a_body_on_twos() {
     let place = Place::new();
     let plain = "--set omission.naka_nashi=0 --set omission.koma_dori=0 --set spacing.drift=0 --set spacing.on=2";

@@ -1310,6 +1310,9 @@ fn the_motion_for_mmd_fits_the_model_whose_file_is_given() {
     fs::write(place.path("half.pmd"), file).unwrap();
     let said = place.refused(1, &run("vmd.model=half.pmd"));
     assert!(said.contains("half.pmd: byte 295: 4 bones do not go into the 23 bytes"), "{said}");
+    fs::write(place.path("doll.bak"), "").unwrap();
+    let said = place.refused(2, &run("vmd.model=doll.bak"));
+    assert!(said.contains("doll.bak is no model (.pmx, .pmd), nor the name of one"), "{said}");
     let said = place.refused(1, &run("vmd.model=none.pmx"));
     assert!(said.contains("none.pmx: "), "{said}");
 }

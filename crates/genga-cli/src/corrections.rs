@@ -346,8 +346,8 @@ pub(super) fn unheld(edits: &Edits, breakdown: &Breakdown<'_>) -> Vec<String> {
         for (layer, koma) in found.into_iter().filter(|(_, koma)| *koma != asked) {
             let of = if layers.len() > 1 { format!("{}/", layer.name) } else { String::new() };
             said.push(format!(
-                "the drawing of frame {of}{frame} was to stay for {asked} koma and stays for {koma}: genga stay on their \
-                 koma, and on twos and threes no drawing for one"
+                "the drawing of frame {of}{frame} was to stay for {asked} koma and stays for {koma}: the next genga \
+                 stands there, or none would stay for one koma; move or forbid that genga to hold longer"
             ));
         }
     }

@@ -192,9 +192,16 @@ impl<'a> Folder<'a> {
         let Some((first, more)) = others.split_first() else { return Ok(()) };
         let more =
             if more.is_empty() { String::new() } else { format!(" (nor {})", more.join(" ")) };
+        // An edited recipe is usually meant.
+        let recipe = match self.path.join(Run::RECIPE) {
+            path if *first == Run::RECIPE => {
+                format!("; to run with it: --recipe {}", path.display())
+            }
+            _ => String::new(),
+        };
         Err(Failure::AskedWrongly(format!(
             "{}: this file is not as a run wrote it{more}, and would be lost; move it, write elsewhere with --out, or write over \
-             it with --force",
+             it with --force{recipe}",
             self.path.join(first).display()
         )))
     }

@@ -40,6 +40,10 @@ impl LookArgs {
             settings.look_from(camera);
         }
         for (name, value) in &self.with {
+            if name == "vmd.model" && !Vmd::is_file(value) && Path::new(value).exists() {
+                let message = format!("{value} is no model (.pmx, .pmd), nor the name of one");
+                return Err(Error::setting(name, message).into());
+            }
             if name == "vmd.model" && Vmd::is_file(value) {
                 settings.vmd.play(model(Path::new(value))?);
             } else {

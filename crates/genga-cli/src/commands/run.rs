@@ -1,5 +1,7 @@
 //! `genga run`: runs the whole chain and writes a folder.
 
+mod passages;
+
 use std::path::{Path, PathBuf};
 
 use clap::{Arg, ArgAction, Args};
@@ -127,6 +129,7 @@ pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
         .for_each(|line| words.say(format_args!("correction  修正       {line}")));
     numbering.line().iter().for_each(|line| words.say(line));
     cut_args::lines(breakdown.sheet, &name).iter().for_each(|line| words.say(line));
+    passages::lines(recipe, &breakdown).iter().for_each(|line| words.say(line));
     shortfalls(words, &report, &breakdown);
     left.notes().iter().for_each(|note| words.say(format_args!("note        {note}")));
     words.say(format_args!("files       {}: {}", folder.display(), files.join(" ")));
