@@ -11,6 +11,7 @@ mod difference; // what a change made of the sheet, before and after it
 mod footage; // pictures and sound that were recorded beside the motion
 mod goals; // three goals and presets, and the program's own results
 mod harness; // a studio with a clip on the table
+mod kept_numbers; // numbers of drawings that stay from export to export
 mod keyboard; // every act without a mouse
 mod knobs; // expert settings, undone and redone
 mod layered; // several columns, each with its own pins

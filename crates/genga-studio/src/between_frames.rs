@@ -29,7 +29,10 @@ impl Studio {
             }
         }
         if let Some(written) = self.exporting.as_ref().and_then(Exporting::look) {
-            let to = self.exporting.take().and_then(|exporting| exporting.to);
+            let to = self.exporting.take().and_then(|exporting| {
+                self.number_as_exported(&exporting);
+                exporting.to
+            });
             match (written, to) {
                 (Ok(text), Some(to)) => {
                     let (next, japanese) = to.next();
@@ -72,10 +75,18 @@ impl Studio {
         }
     }
 
+    /// Numbers the drawings as in the files that were just written, if they are of the clip on the table.
+    fn number_as_exported(&mut self, exported: &Exporting) {
+        if let Some(take) = self.take.as_mut().filter(|take| take.path == exported.clip) {
+            take.number_as_in(&*self.desk, &exported.folder);
+        }
+    }
+
     fn put_on_table(&mut self, mut take: Take) {
         if let Some(before) = self.take.as_ref().filter(|_| self.takes.share) {
             take.wanted.take_settings(&before.document().recipe);
         }
+        take.number_as_in(&*self.desk, &self.export_folder(&take));
         let breakdown = take.results().breakdown;
         self.curves = Curves::new(breakdown.filtered.movers_first(breakdown.clip.skeleton()));
         (self.player, self.chosen) = (Player::default(), 0);

@@ -1,11 +1,12 @@
 //! Files (ファイル): saving, exporting and choosing, and the takes of a folder.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::Studio;
 use super::export_settings::Order;
 use super::export_task::Exporting;
+use super::open_take::Take;
 use super::take_list::{Mark, Takes};
 use super::task::Task;
 
@@ -67,10 +68,15 @@ impl Studio {
     /// Opens the export panel with the last order, unless an export is running.
     pub(super) fn ask_export(&mut self) {
         let (Some(take), None) = (&self.take, &self.exporting) else { return };
-        let into = self.desk.noted(INTO).filter(|into| !into.trim().is_empty());
-        let folder = take.folder(into.as_deref().map(|into| Path::new(into.trim())));
+        let folder = self.export_folder(take);
         let order = Order::remembered(&self.desk.noted(EXPORT).unwrap_or_default(), folder);
         self.order.ask(order, &*self.desk);
+    }
+
+    /// The folder into which a take is exported unless another is chosen.
+    pub(super) fn export_folder(&self, take: &Take) -> PathBuf {
+        let into = self.desk.noted(INTO).filter(|into| !into.trim().is_empty());
+        take.folder(into.as_deref().map(|into| Path::new(into.trim())))
     }
 
     pub(super) fn choose_folder(&mut self) {

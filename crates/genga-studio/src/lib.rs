@@ -42,6 +42,7 @@ mod help;
 mod history;
 mod host;
 mod icon;
+mod kept_numbers;
 mod key_menu;
 mod keyboard;
 mod knobs;

@@ -13,6 +13,7 @@ use super::export_task::Parcel;
 use super::freeze;
 use super::history::History;
 use super::host::{Host, Opened};
+use super::kept_numbers::KeptNumbers;
 use super::opening_steps::Step;
 use super::scene::Scene;
 use super::unsaved::{Unsaved, beside, read};
@@ -76,6 +77,7 @@ pub(super) struct Take {
     cels: Option<Cels>,
     /// The counts of its sheet. `None` before the chain has run.
     counts: Option<Counts>,
+    numbers: KeptNumbers,
     saved: Document,
     /// State last kept in case of a crash.
     kept: Unsaved,
@@ -114,6 +116,7 @@ impl Take {
             document: saved.clone(),
             cels: None,
             counts: None,
+            numbers: KeptNumbers::default(),
             kept: Unsaved::nothing(&saved),
             saved,
             is_slow: false,
@@ -139,6 +142,7 @@ impl Take {
             Step::Lay => {
                 let breakdown = engine.last(recipe).expect("it was timed in the step before");
                 self.counts = Some(Counts::new(&breakdown));
+                self.numbers.renew(breakdown.sheet);
                 Cels::new(breakdown.clip, breakdown.sheet).map(|cels| self.cels = Some(cels))
             }
         };
@@ -164,7 +168,15 @@ impl Take {
         }
         let breakdown = self.engine.last(recipe).expect("the chain has run");
         let cels = self.cels.as_ref().expect("cels are laid once the chain has run");
+        let breakdown = self.numbers.on(breakdown);
         Results { breakdown, cels, scene: &self.scene, wanted: &self.wanted }
+    }
+
+    /// Numbers the drawings as on the sheet in an export folder.
+    pub(super) fn number_as_in(&mut self, desk: &dyn Host, folder: &Path) {
+        self.numbers = KeptNumbers::find(desk, folder, &self.path);
+        let sheet = self.results().breakdown.sheet.clone();
+        self.numbers.renew(&sheet);
     }
 
     /// Whether another document is asked for than that of the results.
@@ -191,7 +203,9 @@ impl Take {
         self.is_elsewhere = true;
         let laid = self.engine.run(recipe, edits);
         let laid = laid.and_then(|breakdown| {
-            Ok((laid_again(&breakdown, recipe, before)?, Counts::new(&breakdown)))
+            let cels = laid_again(&breakdown, recipe, before)?;
+            self.numbers.renew(breakdown.sheet);
+            Ok((cels, Counts::new(&breakdown)))
         });
         match laid {
             Ok((cels, counts)) => {

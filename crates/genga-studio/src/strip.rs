@@ -171,7 +171,7 @@ impl Strip {
 /// Names the strip and the drawing at the play head, as a screen reader says them.
 fn name(response: &egui::Response, shown: &Shown<'_>) {
     let (words, cell) = (shown.words, shown.column().cell(shown.at));
-    let drawing = match cell.genga {
+    let drawing = match cell.genga_number() {
         Some(number) => format!("{} {number}", words.say("genga", "原画")),
         None => words.say("inbetween", "中割り").to_owned(),
     };

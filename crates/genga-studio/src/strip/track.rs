@@ -146,7 +146,7 @@ fn badges(painter: &Painter, layout: &Layout, figured: &[usize], shown: &Shown<'
     let mut room = Room::default();
     for index in layout.seen(shown) {
         let (cell, x) = (&cells[index], layout.x(cells[index].koma));
-        let Some(number) = cell.genga else { continue };
+        let Some(number) = cell.genga_number() else { continue };
         let (middle, color) = (pos2(x, layout.badges), look.of_role(cell.drawing.role));
         let has_figure = figured.binary_search(&index).is_ok();
         while next.next_if(|other| *other <= x).is_some() {}
@@ -154,7 +154,7 @@ fn badges(painter: &Painter, layout: &Layout, figured: &[usize], shown: &Shown<'
         // Numbers with figures stand apart already.
         if room.take(x, APART) && is_free || has_figure {
             stem(painter, layout, middle, shown);
-            badge(painter, middle, number, color, cell.key, look.paper);
+            badge(painter, middle, &number, color, cell.key, look.paper);
         } else if layout.koma() >= ALONE {
             painter.circle_filled(middle, 2.5, color);
         }

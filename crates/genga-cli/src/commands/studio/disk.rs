@@ -15,10 +15,11 @@ use crate::clip::Part;
 use crate::failure::Failure;
 use crate::folder::Folder;
 use crate::format_args::{FormatArgs, Formats, Overwrites};
-use crate::numbers::Numbering;
+use crate::numbers::{self, Numbering};
 use crate::results::{OWN, Outcome, Results};
 use crate::{files, paths};
 use genga::error::Error;
+use genga::sheet::Sheet;
 use genga_files::{ClipMark, Run};
 use genga_studio::{Export, Exported, Host, Opened, Pictures, Playing, Waveform};
 
@@ -96,6 +97,11 @@ impl Host for Disk {
     ) -> Result<Exported, String> {
         let written = self.mark(export.clip).and_then(|mark| written(folder, export, mark, tell));
         written.map(Exported::from).map_err(said)
+    }
+
+    fn sheet_in(&self, folder: &Path, clip: &Path) -> Option<Sheet> {
+        let mark = self.mark(clip).ok()?;
+        numbers::before(&Folder::look(folder, Overwrites::default()), &mark).ok().flatten()
     }
 
     #[cfg(feature = "studio")]
