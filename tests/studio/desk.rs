@@ -87,6 +87,12 @@ impl Host for Memory {
         self.disk.export(folder, export, tell)
     }
 
+    fn put_sample(&self, name: &str, text: &str) -> Result<PathBuf, String> {
+        let path = crate::harness::sample(name);
+        assert_eq!(std::fs::read_to_string(&path).unwrap(), text);
+        Ok(path)
+    }
+
     fn sheet_in(&self, folder: &Path, clip: &Path) -> Option<Sheet> {
         self.disk.sheet_in(folder, clip)
     }

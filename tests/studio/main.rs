@@ -26,5 +26,6 @@ mod saving; // saved, opened, recovered, exported
 mod seen; // play, step, loop, flip, look from a side
 mod software_renderer; // a renderer without a graphics card
 mod spoken; // lines of the S column
+mod start; // the built-in clip and the tour
 mod strip; // genga as figures over time: chosen, dragged, pinned, forbidden, held, played
 mod window_sizes; // small windows, and screens with many pixels a point

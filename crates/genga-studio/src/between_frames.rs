@@ -16,6 +16,7 @@ use super::strip::Strip;
 use super::task::{self, Task};
 use super::timesheet::Timesheet;
 use super::viewport::Viewport;
+use super::welcome;
 
 impl Studio {
     /// Collects what comes from outside: a clip that was read, results that were written, files that were chosen or
@@ -25,7 +26,11 @@ impl Studio {
             self.opening = None;
             match read {
                 Ok(take) => self.put_on_table(take),
-                Err(text) => self.fail(text),
+                Err(text) => {
+                    let (_, formats) = welcome::formats(self.desk.has_names());
+                    let japanese = Some(format!("開けるのは {formats}\n{text}"));
+                    self.message = Some(Message { japanese, ..Message::failure(text) });
+                }
             }
         }
         if let Some(written) = self.exporting.as_ref().and_then(Exporting::look) {

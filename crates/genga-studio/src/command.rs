@@ -137,6 +137,13 @@ pub(super) enum Command {
     SaveAs(PathBuf),
     /// Opens the system's file dialog.
     Choose,
+    /// Opens the built-in clip, and begins the tour.
+    Sample,
+    /// Begins the tour.
+    Tour,
+    /// Goes to the next step of the tour, or to the one before.
+    TourStep(isize),
+    EndTour,
     /// Opens the export panel.
     AskExport,
     /// Runs an export.

@@ -55,6 +55,7 @@ impl Studio {
 
     /// Carries out a command.
     pub(super) fn act(&mut self, ui: &Ui, command: Command) {
+        self.tour.watch(&command);
         match command {
             Command::Play
             | Command::Koma(_)
@@ -138,6 +139,13 @@ impl Studio {
             Command::Take(by) => self.step_take(by),
             Command::Mark(is_done) => self.mark_take(is_done),
             Command::Choose => self.choose(),
+            Command::Sample => self.open_sample(),
+            Command::Tour => {
+                self.tour.begin();
+                self.is_help_open = false;
+            }
+            Command::TourStep(by) => self.tour.step(by),
+            Command::EndTour => self.tour.end(),
             Command::Recover => self.take.iter_mut().for_each(Take::recover),
             Command::Discard => self.discard(),
             Command::Theme => {

@@ -9,10 +9,14 @@ use super::export_task::Exporting;
 use super::open_take::Take;
 use super::take_list::{Mark, Takes};
 use super::task::Task;
+use genga::motion::bvh;
 
 /// Names under which the desk notes the last order and its folder.
 const EXPORT: &str = "export";
 const INTO: &str = "export-into";
+
+/// Name of the built-in clip.
+const SAMPLE: &str = "kick.bvh";
 
 impl Studio {
     /// Opens a clip. For a folder, lists its takes and opens the first; without takes, shows its pictures.
@@ -77,6 +81,17 @@ impl Studio {
     pub(super) fn export_folder(&self, take: &Take) -> PathBuf {
         let into = self.desk.noted(INTO).filter(|into| !into.trim().is_empty());
         take.folder(into.as_deref().map(|into| Path::new(into.trim())))
+    }
+
+    /// Opens the built-in clip, and begins the tour.
+    pub(super) fn open_sample(&mut self) {
+        match self.desk.put_sample(SAMPLE, bvh::KICK) {
+            Ok(path) => {
+                self.tour.begin();
+                self.open_or_ask(path);
+            }
+            Err(text) => self.fail(text),
+        }
     }
 
     pub(super) fn choose_folder(&mut self) {

@@ -71,6 +71,14 @@ pub trait Host: Send + Sync {
         tell: &dyn Fn(&str),
     ) -> Result<Exported, String>;
 
+    /// Puts the built-in clip where [`open`](Self::open) finds it, and returns its path. Nothing is overwritten.
+    ///
+    /// # Errors
+    /// Why it cannot be put there. By default there is no such place.
+    fn put_sample(&self, name: &str, _text: &str) -> Result<PathBuf, String> {
+        Err(format!("{name}: there is no place for it here"))
+    }
+
     /// Returns the sheet that the last export of a clip wrote into a folder: its drawings keep their numbers. Default:
     /// there is none, and drawings are numbered from 1.
     fn sheet_in(&self, _folder: &Path, _clip: &Path) -> Option<Sheet> {

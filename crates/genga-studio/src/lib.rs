@@ -71,6 +71,7 @@ mod theme;
 mod time_axis;
 mod timesheet;
 mod toolbar;
+mod tour;
 mod transport;
 mod unsaved;
 mod view_state;
@@ -114,6 +115,7 @@ use task::Task;
 use theme::Look;
 use timesheet::Timesheet;
 use toolbar::Bar;
+use tour::Tour;
 use viewport::Viewport;
 use words::Words;
 
@@ -148,6 +150,7 @@ pub struct Studio {
     may_close: bool,
     file: FileField,
     is_help_open: bool,
+    tour: Tour,
     panels: Panels,
     arrival: Arrival,
     player: Player,
@@ -203,6 +206,7 @@ impl Studio {
             may_close: false,
             file: FileField::default(),
             is_help_open: false,
+            tour: Tour::default(),
             panels: Panels::default(),
             arrival: Arrival::default(),
             player: Player::default(),
@@ -281,6 +285,12 @@ impl Studio {
             bar.show(ui, self.take.as_ref(), before);
         });
         self.goals(ui, &look, words, &mut commands);
+        if self.tour.is_shown() && self.take.is_some() {
+            let frame = Frame::side_top_panel(ui.style());
+            Panel::top("tour").frame(frame).show(ui, |ui| {
+                self.tour.show(ui, &look, words, &mut commands);
+            });
+        }
         self.renew_footage(ui);
         match self.take {
             Some(_) => self.table(ui, look, words, &mut commands),
@@ -290,7 +300,7 @@ impl Studio {
             }
         }
         self.notices(ui, &look, words, &mut commands);
-        help::show(ui, &mut self.is_help_open, words);
+        help::show(ui, &mut self.is_help_open, words, &mut commands);
         focus::show(ui, &look);
         for command in commands {
             self.act(ui, command);

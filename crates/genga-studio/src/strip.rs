@@ -88,7 +88,7 @@ impl Strip {
             self.window.reveal(shown.at as f64);
         }
         let layout = Layout::new(rect, self.window.scale(inside));
-        let figured = choice::choose(&layout, shown);
+        let figured = choice::choose(&layout, shown, player.is_playing());
         self.hover(ui, &layout, &figured, response.dragged(), shown);
         self.hand.handle(&response, &layout, &figured, shown, commands);
         self.draw(ui, &layout, &figured, (shown, difference), (orbit, player));
@@ -159,12 +159,13 @@ impl Strip {
             let played = Rect::from_x_y_ranges(played, layout.rect.y_range());
             painter.rect_filled(played, 0.0, look.chosen);
         }
+        // Behind the numbers, so that none is struck out.
+        let x = layout.x(shown.at);
+        painter.vline(x, layout.rect.y_range(), Stroke::new(2.0, look.playhead));
         track::draw(&painter, layout, figured, shown);
         let changed = difference.and_then(|all| all.columns.get(shown.chosen));
         let passage = self.hovered.as_ref().map(|own| (own, ui.input(|input| input.time)));
         figures::draw(&painter, layout, (figured, passage), (shown, orbit), changed);
-        let x = layout.x(shown.at);
-        painter.vline(x, layout.rect.y_range(), Stroke::new(2.0, look.playhead));
     }
 }
 
