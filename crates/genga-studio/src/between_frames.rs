@@ -105,6 +105,7 @@ impl Studio {
         self.recent = self.desk.recent();
         (self.held, self.before, self.message) = (None, None, None);
         (self.difference, self.asked, self.is_before) = (None, None, false);
+        self.searching = None;
         self.take = Some(take);
     }
 
@@ -112,7 +113,7 @@ impl Studio {
     pub(super) fn settle(&mut self, ui: &Ui) {
         let is_held = ui.input(|input| input.pointer.any_down());
         self.note_before(is_held);
-        self.answer_keys(is_held);
+        self.answer_keys(ui, is_held);
         let Some(take) = &mut self.take else { return };
         match take.renew(is_held) {
             Ok(false) => {}
@@ -145,7 +146,8 @@ impl Studio {
     /// Notes the sheet before a change: once for all that a drag changes.
     fn note_before(&mut self, is_held: bool) {
         let Some(take) = self.take.as_mut().filter(|_| self.before.is_none()) else { return };
-        if is_held || self.asked.is_some() || take.is_behind() {
+        let is_asked = self.asked.is_some() || self.searching.is_some();
+        if is_held || is_asked || take.is_behind() {
             let counts = take.counts();
             self.before = Some(Before::new(&take.results().breakdown, counts));
         }

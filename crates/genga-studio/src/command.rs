@@ -116,6 +116,8 @@ pub(super) enum Command {
     Preset(&'static Preset),
     /// Finds settings with this many genga.
     Keys(usize),
+    /// Ends the search for a number of genga.
+    StopSearch,
     /// Resets all knobs to their defaults.
     Defaults,
     Undo,

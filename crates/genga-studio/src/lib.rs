@@ -36,6 +36,7 @@ mod footage;
 mod footage_cache;
 mod footage_panel;
 mod freeze;
+mod genga_search;
 mod goals;
 mod held_key;
 mod help;
@@ -97,6 +98,7 @@ use export_task::Exporting;
 use file_field::FileField;
 use footage_cache::FrameCache;
 use footage_panel::FootagePanel;
+use genga_search::GengaSearch;
 use goals::Goals;
 use key_menu::KeyPanel;
 use knobs::Knobs;
@@ -165,6 +167,9 @@ pub struct Studio {
     goals: Goals,
     /// The number of genga that is asked for and not yet found.
     asked: Option<usize>,
+    searching: Option<GengaSearch>,
+    /// Seconds of a search in its first frame.
+    patience: f64,
     knobs: Knobs,
     map: Map,
     key_panel: KeyPanel,
@@ -218,6 +223,8 @@ impl Studio {
             curves: Curves::default(),
             goals: Goals::default(),
             asked: None,
+            searching: None,
+            patience: genga_search::PATIENT,
             knobs: Knobs::default(),
             map: Map::default(),
             key_panel: KeyPanel::default(),

@@ -11,6 +11,7 @@ use super::document::Document;
 use super::export_settings::Order;
 use super::export_task::Parcel;
 use super::freeze;
+use super::genga_search::GengaSearch;
 use super::history::History;
 use super::host::{Host, Opened};
 use super::kept_numbers::KeptNumbers;
@@ -21,13 +22,10 @@ use genga::error::Error;
 use genga::motion::Clip;
 use genga::pipeline::{Breakdown, Engine};
 use genga::recipe::Recipe;
-use genga::target::{Target, meet};
 use genga_plot::parts::Cels;
 
 /// Longest run, in seconds, that is still repeated during a drag.
 const QUICK: f64 = 0.04;
-/// Longest search for a number of genga, in seconds, that is still repeated during a drag.
-const PATIENT: f64 = 0.12;
 
 /// The results of a clip and its document, and the document asked for next.
 pub(super) struct Results<'a> {
@@ -262,15 +260,10 @@ impl Take {
         self.counts.expect("sheets are counted once the chain has run")
     }
 
-    /// Finds the settings with which a recipe's sheet has this many genga, or as near as possible, as `--keys` does.
-    /// Whether that took too long to be done again during a drag is known after the first time.
-    pub(super) fn ask_keys(&mut self, of: &Recipe, count: usize) -> Result<(), Error> {
-        let begin = Instant::now();
-        self.is_elsewhere = true;
-        let targets = [Target::Keys(count)];
-        self.wanted.recipe = meet(&mut self.engine, of, &self.wanted.edits, &targets)?.recipe;
-        self.is_slow_to_ask = begin.elapsed().as_secs_f64() > PATIENT;
-        Ok(())
+    /// Begins a search for settings with which a recipe's sheet has this many genga, or as near as possible, as `--keys`
+    /// does.
+    pub(super) fn search(&self, of: &Recipe, count: usize) -> GengaSearch {
+        GengaSearch::new(self.engine.clone(), of, &self.wanted, count)
     }
 
     /// Whether there are unsaved changes.
