@@ -49,7 +49,8 @@ mod mutated; // real files with anything changed: no panic, and what is read is 
 mod one_motion; // the same keys in any rig, at any rate, with noise
 mod pages; // everything named on the pages for newcomers exists
 mod passages; // settings of layers and passages
-mod versions; // two versions side by side, and in trials
+mod versions;
+mod vocabulary; // one word each, in both languages // two versions side by side, and in trials
 
 mod shared_clip; // a file in blocks is the file from memory // filter and persistence pick the genga
 
