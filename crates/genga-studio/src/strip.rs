@@ -27,6 +27,9 @@ const LOW: f32 = 96.0;
 const USUAL: f32 = 128.0;
 const HIGH: f32 = 156.0;
 
+/// Height of the koma numbers in points.
+const NUMBERS: f32 = 13.0;
+
 /// State of the strip: the part of the sheet in view, and what the pointer does.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Strip {
@@ -159,9 +162,9 @@ impl Strip {
             let played = Rect::from_x_y_ranges(played, layout.rect.y_range());
             painter.rect_filled(played, 0.0, look.chosen);
         }
-        // Behind the numbers, so that none is struck out.
-        let x = layout.x(shown.at);
-        painter.vline(x, layout.rect.y_range(), Stroke::new(2.0, look.playhead));
+        // Behind the numbers of genga and below those of koma, so that none is struck out.
+        let (x, top) = (layout.x(shown.at), layout.rect.min.y + NUMBERS);
+        painter.vline(x, top..=layout.rect.max.y, Stroke::new(2.0, look.playhead));
         track::draw(&painter, layout, figured, shown);
         let changed = difference.and_then(|all| all.columns.get(shown.chosen));
         let passage = self.hovered.as_ref().map(|own| (own, ui.input(|input| input.time)));

@@ -43,7 +43,8 @@ fn numbers(painter: &Painter, layout: &Layout, shown: &Shown<'_>) {
     let Ok(rate) = FrameRate::new(column.clock.koma_rate) else { return };
     // On the strip a place is a koma.
     let clock = Clock { first: Frame(0), frame_rate: rate, koma_rate: column.clock.koma_rate };
-    for (place, koma) in layout.time.koma(NUMBER, clock) {
+    let all = layout.time.koma(NUMBER, clock);
+    for (place, koma) in all.into_iter().filter(|(_, koma)| *koma <= column.length) {
         let number = match shown.counts_frames {
             true => shown.frame_of_koma(koma - 1).0,
             false => koma,
