@@ -162,6 +162,12 @@ impl Strip {
             let played = Rect::from_x_y_ranges(played, layout.rect.y_range());
             painter.rect_filled(played, 0.0, look.chosen);
         }
+        let cells = &shown.column().cells;
+        let current = shown.column().at(shown.at);
+        if figured.binary_search(&current).is_ok() {
+            let slot = layout.slot(layout.x(cells[current].koma));
+            painter.rect_filled(slot, 4.0, look.chosen);
+        }
         // Behind the numbers of genga and below those of koma, so that none is struck out.
         let (x, top) = (layout.x(shown.at), layout.rect.min.y + NUMBERS);
         painter.vline(x, top..=layout.rect.max.y, Stroke::new(2.0, look.playhead));
