@@ -16,13 +16,13 @@ const WIDE: f32 = 620.0;
 /// What can be dropped.
 const FORMATS: (&str, &str) = (
     "BVH, FBX, glTF and GLB, VRM animation, ASF/AMC, VMD of MikuMikuDance, or a folder of takes",
-    "BVH、FBX、glTF・GLB、VRMアニメーション、ASF/AMC、MikuMikuDance の VMD、またはテイクのフォルダー",
+    "BVH、FBX、glTF・GLB、VRMA、ASF/AMC、MikuMikuDance の VMD、テイクのフォルダー",
 );
 /// What can be dropped on a page, which reads no FBX.
 const ON_A_PAGE: (&str, &str) = (
     "BVH, glTF and GLB, VRM animation, ASF/AMC, VMD of MikuMikuDance. Of an FBX, export BVH or GLB first. Nothing leaves \
      this computer.",
-    "BVH、glTF・GLB、VRMアニメーション、ASF/AMC、MikuMikuDance の VMD。FBX は BVH か GLB に書き出してから。\
+    "BVH、glTF・GLB、VRMA、ASF/AMC、MikuMikuDance の VMD。FBX は BVH か GLB に書き出してから。\
      ファイルはどこにも送られません。",
 );
 
