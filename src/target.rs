@@ -4,6 +4,7 @@
 //! deterministic: the same clip, recipe and targets give the same settings, and those settings reproduce the sheet
 //! without any target.
 
+mod counter;
 mod drawings;
 mod error;
 mod gaits;
@@ -14,6 +15,8 @@ mod reasons;
 
 use std::fmt;
 
+use counter::{Counter, Known, OneStep};
+
 use crate::edits::Edits;
 use crate::error::Error;
 use crate::keys::Layers;
@@ -21,6 +24,7 @@ use crate::pipeline::{Breakdown, Engine};
 use crate::recipe::Recipe;
 use crate::sheet::{Layer, Role};
 pub use key_count_search::with_found;
+pub use reasons::Shortfall;
 
 /// A goal for the sheet.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -52,7 +56,7 @@ pub struct Outcome {
     /// The value that the sheet reaches, in the target's unit.
     pub reached: f64,
     /// Why the target was missed; `None` if it is met, or as nearly as whole drawings allow.
-    pub shortfall: Option<String>,
+    pub shortfall: Option<Shortfall>,
 }
 
 /// Rounds of settling keys and drawings in turn: where drawings may stand decides which keys have room.
@@ -86,15 +90,75 @@ pub fn meet(
     targets: &[Target],
 ) -> Result<Met, Error> {
     check(targets, recipe)?;
+    met(engine, recipe, edits, targets)
+}
+
+fn met(
+    counter: &mut impl Counter,
+    recipe: &Recipe,
+    edits: &Edits,
+    targets: &[Target],
+) -> Result<Met, Error> {
     let mut met = Met { recipe: recipe.clone(), outcomes: Vec::new() };
     for _ in 0..MOST_ROUNDS {
         met.outcomes.clear();
-        met.settle_all(engine, edits, targets)?;
-        if met.keys_hold(engine, edits)? {
+        met.settle_all(counter, edits, targets)?;
+        if met.keys_hold(counter, edits)? {
             break;
         }
     }
     Ok(met)
+}
+
+/// A search for the settings of a number of genga, one count a step: a window can be drawn between two.
+///
+/// ```
+/// # use genga::{edits::Edits, pipeline::Engine, recipe::Recipe};
+/// use genga::target::{Search, Target, meet};
+///
+/// # let clip = genga::motion::bvh::open("data/kick.bvh".as_ref())?.clip;
+/// let mut engine = Engine::new(clip)?;
+/// let (recipe, edits) = (Recipe::default(), Edits::default());
+/// let mut search = Search::new(&recipe, &edits, 8);
+/// let met = loop {
+///     if let Some(met) = search.step(&mut engine) {
+///         break met?;
+///     }
+/// };
+/// assert_eq!(met, meet(&mut engine, &recipe, &edits, &[Target::Keys(8)])?);
+/// # Ok::<(), genga::Error>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct Search {
+    recipe: Recipe,
+    edits: Edits,
+    target: Target,
+    known: Known,
+}
+
+impl Search {
+    /// Creates a search for a number of genga, as [`Target::Keys`] counts them.
+    pub fn new(recipe: &Recipe, edits: &Edits, genga: usize) -> Self {
+        let (recipe, edits, target) = (recipe.clone(), edits.clone(), Target::Keys(genga));
+        Self { recipe, edits, target, known: Vec::new() }
+    }
+
+    /// Counts once more. Returns the settings of [`meet`] once they are found, else `None`.
+    ///
+    /// # Errors
+    /// Those of [`meet`].
+    pub fn step(&mut self, engine: &mut Engine) -> Option<Result<Met, Error>> {
+        let (targets, known) = ([self.target], &mut self.known);
+        let mut step = OneStep { engine, known, is_spent: false, is_paused: false };
+        let found = check(&targets, &self.recipe)
+            .and_then(|()| met(&mut step, &self.recipe, &self.edits, &targets));
+        (!step.is_paused).then_some(found)
+    }
+
+    /// Number of counts so far; a search takes some tens.
+    pub fn counts(&self) -> usize {
+        self.known.len()
+    }
 }
 
 fn check(targets: &[Target], recipe: &Recipe) -> Result<(), Error> {
@@ -134,7 +198,7 @@ impl Met {
     /// Settles the keys, then the drawings.
     fn settle_all(
         &mut self,
-        engine: &mut Engine,
+        counter: &mut impl Counter,
         edits: &Edits,
         targets: &[Target],
     ) -> Result<(), Error> {
@@ -142,12 +206,12 @@ impl Met {
         for target in targets {
             let settled = match *target {
                 Target::Keys(count) => {
-                    gaits::meet(engine, &self.recipe, edits, |engine, recipe| {
-                        genga::meet(engine, recipe, edits, count)
+                    gaits::meet(counter, &self.recipe, edits, |counter, recipe| {
+                        genga::meet(counter, recipe, edits, count)
                     })?
                 }
                 Target::MaxError(most) => {
-                    gaits::meet(engine, &self.recipe, edits, |engine, recipe| {
+                    gaits::meet(counter.engine(), &self.recipe, edits, |engine, recipe| {
                         error::meet(engine, recipe, edits, most)
                     })?
                 }
@@ -159,20 +223,25 @@ impl Met {
         for target in targets {
             if let Target::DrawingsPerSecond(rate) = *target {
                 let goal = drawings::Goal { per_second: rate, keys_are_free };
-                self.settle(gaits::meet(engine, &self.recipe, edits, |engine, recipe| {
-                    goal.meet(engine, recipe, edits)
-                })?);
+                self.settle(gaits::meet(
+                    counter.engine(),
+                    &self.recipe,
+                    edits,
+                    |engine, recipe| goal.meet(engine, recipe, edits),
+                )?);
             }
         }
         Ok(())
     }
 
     /// Whether settling the drawings left the keys unchanged.
-    fn keys_hold(&self, engine: &mut Engine, edits: &Edits) -> Result<bool, Error> {
+    fn keys_hold(&self, counter: &mut impl Counter, edits: &Edits) -> Result<bool, Error> {
         for outcome in &self.outcomes {
             let now = match outcome.target {
-                Target::Keys(_) => layer(&engine.run(&self.recipe, edits)?).genga() as f64,
-                Target::MaxError(_) => engine.reconstruction(&self.recipe, edits)?.worst(),
+                Target::Keys(_) => counter.genga(&self.recipe, edits)? as f64,
+                Target::MaxError(_) => {
+                    counter.engine().reconstruction(&self.recipe, edits)?.worst()
+                }
                 Target::DrawingsPerSecond(_) => continue,
             };
             if now != outcome.reached {
@@ -218,6 +287,26 @@ impl fmt::Display for Outcome {
         match &self.shortfall {
             None => Ok(()),
             Some(why) => write!(f, ": {why}"),
+        }
+    }
+}
+
+impl Outcome {
+    /// Returns the same sentence in Japanese.
+    pub fn japanese(&self) -> String {
+        let reached = self.reached;
+        let said = match self.target {
+            Target::Keys(count) => format!("原画{count}枚の指定に対して{reached}枚"),
+            Target::DrawingsPerSecond(rate) => {
+                format!("毎秒{rate}枚の指定に対して毎秒{reached:.2}枚")
+            }
+            Target::MaxError(most) => {
+                format!("復元誤差は身長の{most}%以下の指定に対して{reached:.2}%")
+            }
+        };
+        match &self.shortfall {
+            None => said,
+            Some(why) => format!("{said}: {}", why.japanese()),
         }
     }
 }

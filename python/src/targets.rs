@@ -1,7 +1,7 @@
 //! Targets: wanted properties of a sheet, in place of the settings that produce them.
 
 use genga::Error;
-use genga::target::{Outcome, Target};
+use genga::target::{Outcome, Shortfall, Target};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
@@ -19,17 +19,20 @@ pub fn targets(py: Python<'_>, asked: Option<&Bound<'_, PyDict>>) -> PyResult<Ve
     Ok(found)
 }
 
-/// An outcome as pickle takes it: `target`, `asked`, `reached`, `why`.
-pub type Plain = (String, f64, f64, Option<String>);
+/// An outcome as pickle takes it: `target`, `asked`, `reached`, and why in English and Japanese.
+pub type Plain = (String, f64, f64, Option<(String, String)>);
 
 /// Takes an outcome apart.
 pub fn plain_of(outcome: &Outcome) -> Plain {
     let (name, asked) = named(outcome.target);
-    (name.into(), asked, outcome.reached, outcome.shortfall.clone())
+    let why = outcome.shortfall.as_ref();
+    let why = why.map(|why| (why.to_string(), why.japanese().into()));
+    (name.into(), asked, outcome.reached, why)
 }
 
 /// Puts an outcome together.
-pub fn outcome_of(py: Python<'_>, (name, asked, reached, shortfall): Plain) -> PyResult<Outcome> {
+pub fn outcome_of(py: Python<'_>, (name, asked, reached, why): Plain) -> PyResult<Outcome> {
+    let shortfall = why.map(|(english, japanese)| Shortfall::new(english, japanese));
     Ok(Outcome { target: target(py, &name, asked)?, reached, shortfall })
 }
 
@@ -68,7 +71,7 @@ pub fn told<'py>(py: Python<'py>, outcome: &Outcome) -> PyResult<Bound<'py, PyDi
             _ => told.set_item(what, value)?,
         }
     }
-    told.set_item("why", outcome.shortfall.as_ref())?;
+    told.set_item("why", outcome.shortfall.as_ref().map(ToString::to_string))?;
     told.set_item("words", outcome.to_string())?;
     Ok(told)
 }

@@ -37,6 +37,9 @@ pub use read::{Options, open, read};
 pub use trees::no_tree;
 pub use write::{Writer, write};
 
+/// A built-in sample, `data/kick.bvh`: a kick of 92 frames at 24 fps, synthetic and as free as the program.
+pub const KICK: &str = include_str!("../../data/kick.bvh");
+
 /// The result of reading a BVH file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Read {

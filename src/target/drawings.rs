@@ -4,7 +4,7 @@
 use std::ops::Range;
 
 use super::ladder::{denser, sparser, sparser_to_threes};
-use super::{Outcome, Target, between, key_count_search, layer};
+use super::{Outcome, Shortfall, Target, between, key_count_search, layer};
 use crate::edits::Edits;
 use crate::error::Error;
 use crate::pipeline::Engine;
@@ -94,13 +94,22 @@ impl Goal {
         let shortfall = if found.excess.abs() <= NEAR {
             None
         } else if found.excess > 0.0 && !self.keys_are_free {
-            Some(format!(
-                "{genga} genga are wanted, and every drawing between them that could go is gone"
+            Some(Shortfall::new(
+                format!(
+                    "{genga} genga are wanted, and every drawing between them that could go is gone"
+                ),
+                format!("原画{genga}枚が指定され、その間で抜ける画はすべて抜いた"),
             ))
         } else if found.excess > 0.0 {
-            Some(format!("{drawings} drawings are left: ends, pins and ends of rests stay"))
+            Some(Shortfall::new(
+                format!("{drawings} drawings are left: ends, pins and ends of rests stay"),
+                format!("{drawings}枚が残る: 両端、固定、止めの端は残す"),
+            ))
         } else {
-            Some("no other settings of koma-dori, spacing.on and naka-nashi come nearer".into())
+            Some(Shortfall::new(
+                "no other settings of koma-dori, spacing.on and naka-nashi come nearer",
+                "コマ撮り、spacing.on、中無しのどの設定でもこれ以上近づかない",
+            ))
         };
         Ok((found.recipe, Outcome { target, reached: drawings as f64 / seconds, shortfall }))
     }
@@ -288,7 +297,7 @@ impl Search<'_> {
         let is_step = |drawing: &&Drawing| drawing.why.reason == Some(Reason::Step);
         let steps = layer(&breakdown).drawings.iter().filter(is_step).count();
         let too_many = between(&breakdown).saturating_sub(steps + room);
-        Ok(too_many.min(key_count_search::found(self.engine, recipe, self.edits)?))
+        Ok(too_many.min(key_count_search::count_found(self.engine, recipe, self.edits)?))
     }
 
     /// Reduces the found keys to a number that leaves room for inbetweens, by raising their price.
@@ -299,7 +308,7 @@ impl Search<'_> {
             if too_many == 0 {
                 break;
             }
-            let found = key_count_search::found(self.engine, &thinned, self.edits)?;
+            let found = key_count_search::count_found(self.engine, &thinned, self.edits)?;
             thinned =
                 key_count_search::with_found(self.engine, recipe, self.edits, found - too_many)?;
         }
@@ -325,7 +334,7 @@ impl Search<'_> {
     /// Reaches fewer drawings than all keys on threes give, by dropping keys on the first rung that suffices with the
     /// fewest keys. A denser rung would have too many drawings, as holds are bounded, unless still more keys go.
     fn fewer(&mut self, from: Found) -> Result<Found, Error> {
-        let found = key_count_search::found(self.engine, &from.recipe, self.edits)?;
+        let found = key_count_search::count_found(self.engine, &from.recipe, self.edits)?;
         let least = self.fewest_found(&from.recipe, found)?;
         let mut best = from.clone();
         let rungs = std::iter::successors(Some(from.recipe.spacing.clone()), sparser);

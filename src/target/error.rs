@@ -1,6 +1,6 @@
 //! The target of a largest error: few keys that keep the body's error below it.
 
-use super::{Outcome, Target, key_count_search, reasons};
+use super::{Outcome, Shortfall, Target, key_count_search, reasons};
 use crate::edits::{Edits, Forbidden};
 use crate::error::Error;
 use crate::keys::{Fill, Merge, Rank};
@@ -49,7 +49,11 @@ pub(super) fn meet(
         let worst = engine.clip().clock(recipe.rate).frame_from_koma(koma);
         let beyond = rebuilt.errors.iter().filter(|error| **error > most).count();
         let all = rebuilt.errors.len();
-        format!("on {beyond} of {all} koma {}", too_far(&recipe, edits, worst))
+        let why = too_far(&recipe, edits, worst);
+        Shortfall::new(
+            format!("on {beyond} of {all} koma {why}"),
+            format!("{all}コマ中{beyond}コマで{}", why.japanese()),
+        )
     });
     Ok((recipe, Outcome { target: Target::MaxError(most), reached, shortfall }))
 }
@@ -74,7 +78,7 @@ fn rungs(engine: &mut Engine, recipe: &Recipe, edits: &Edits) -> Result<Vec<Reci
         };
         return Ok(prices().map(priced).collect());
     }
-    let most = key_count_search::found(engine, &all, edits)?;
+    let most = key_count_search::count_found(engine, &all, edits)?;
     let more = |count: &usize| Some((count + 1).max((*count as f64 * STEP) as usize));
     let counts = std::iter::successors(Some(0), more).take_while(|count| *count < most);
     let rungs: Result<Vec<_>, _> =
@@ -87,21 +91,34 @@ fn keys(engine: &mut Engine, recipe: &Recipe, edits: &Edits) -> Result<Vec<Frame
 }
 
 /// Explains why some koma exceed the error, names the worst frame, and suggests a remedy.
-fn too_far(recipe: &Recipe, edits: &Edits, worst: Frame) -> String {
-    let why = if let Some(why) = reasons::settled(edits) {
-        format!("it is further off: {why}")
+fn too_far(recipe: &Recipe, edits: &Edits, worst: Frame) -> Shortfall {
+    let (why, japanese) = if let Some(why) = reasons::settled(edits) {
+        (format!("it is further off: {why}"), format!("超える。{}", why.japanese()))
     } else {
         let limits = reasons::limits(recipe, edits);
+        let within = limits.japanese();
         match (recipe.keys.merge, recipe.keys.fill) {
-            (Merge::Body, Fill::On) => format!("no keys a koma apart{limits} come nearer"),
-            (Merge::Body, Fill::Off) => format!("no turn of the body{limits} comes nearer"),
-            _ => format!("no key where a joint turns{limits} comes nearer"),
+            (Merge::Body, Fill::On) => (
+                format!("no keys a koma apart{limits} come nearer"),
+                format!("超える。{within}毎コマ原画にしても近づかない"),
+            ),
+            (Merge::Body, Fill::Off) => (
+                format!("no turn of the body{limits} comes nearer"),
+                format!("超える。{within}ほかの全身の変わり目でも近づかない"),
+            ),
+            _ => (
+                format!("no key where a joint turns{limits} comes nearer"),
+                format!("超える。{within}ほかの部位の変わり目でも近づかない"),
+            ),
         }
     };
-    let way = if edits.forbidden.contains(&Forbidden::one(worst)) {
-        ", which is forbidden".into()
+    let (way, helps) = if edits.forbidden.contains(&Forbidden::one(worst)) {
+        (", which is forbidden".into(), "、そこは禁止".into())
     } else {
-        format!(": --pin {worst} helps")
+        (format!(": --pin {worst} helps"), format!("、--pin {worst} で減る"))
     };
-    format!("{why}; the worst is near frame {worst}{way}")
+    Shortfall::new(
+        format!("{why}; the worst is near frame {worst}{way}"),
+        format!("{japanese}。最大はフレーム{worst}付近{helps}"),
+    )
 }

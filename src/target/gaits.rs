@@ -1,21 +1,21 @@
 //! Targets that gaits prevent: the steps of the gaits give way.
 
+use super::counter::Counter;
 use super::{Outcome, Target};
 use crate::edits::Edits;
 use crate::error::Error;
 use crate::keys::AtGaits;
-use crate::pipeline::Engine;
 use crate::recipe::Recipe;
 
 /// Meets a target. If gaits prevent that, tries without them and takes whichever result comes nearer.
-pub(super) fn meet(
-    engine: &mut Engine,
+pub(super) fn meet<C: Counter>(
+    counter: &mut C,
     recipe: &Recipe,
     edits: &Edits,
-    meet: impl Fn(&mut Engine, &Recipe) -> Result<(Recipe, Outcome), Error>,
+    meet: impl Fn(&mut C, &Recipe) -> Result<(Recipe, Outcome), Error>,
 ) -> Result<(Recipe, Outcome), Error> {
-    let met = meet(engine, recipe)?;
-    let breakdown = engine.run(&met.0, edits)?;
+    let met = meet(counter, recipe)?;
+    let breakdown = counter.engine().run(&met.0, edits)?;
     let has_gaits = breakdown.layers().any(|layer| !layer.keys.gaits.is_empty());
     let seconds = breakdown.sheet.length() as f64 / breakdown.clock.koma_rate;
     // A whole number of drawings can be off by up to half a drawing.
@@ -29,7 +29,7 @@ pub(super) fn meet(
     }
     let mut free = recipe.clone();
     free.keys.gaits = AtGaits::Off;
-    let other = meet(engine, &free)?;
+    let other = meet(counter, &free)?;
     Ok(if excess(&other.1) < excess(&met.1) { other } else { met })
 }
 

@@ -1,5 +1,6 @@
 //! Finds settings with room for a number of found keys.
 
+use super::counter::Counter;
 use crate::edits::Edits;
 use crate::error::Error;
 use crate::keys::{AtRests, Key, Rank};
@@ -20,13 +21,23 @@ pub fn with_found(
     edits: &Edits,
     count: usize,
 ) -> Result<Recipe, Error> {
-    let seconds = seconds(engine, recipe);
+    with_counted(engine, recipe, edits, count)
+}
+
+/// Finds the same with any counter.
+pub(super) fn with_counted(
+    counter: &mut impl Counter,
+    recipe: &Recipe,
+    edits: &Edits,
+    count: usize,
+) -> Result<Recipe, Error> {
+    let seconds = seconds(counter.engine(), recipe);
     let mut roomy = recipe.clone();
     roomy.keys.per_second = per_second(count, seconds);
-    if found(engine, &roomy, edits)? < count && roomy.keys.rank == Rank::Price {
+    if counter.found(&roomy, edits)? < count && roomy.keys.rank == Rank::Price {
         roomy.keys.min_price = 0.0;
     }
-    if found(engine, &roomy, edits)? < count {
+    if counter.found(&roomy, edits)? < count {
         roomy.keys.at_rests = AtRests::Off;
     }
     Ok(roomy)
@@ -36,16 +47,16 @@ pub fn with_found(
 ///
 /// A price values a key independently of the clip's length, and leaves no keys above a limit.
 pub(super) fn by_price(
-    engine: &mut Engine,
+    counter: &mut impl Counter,
     recipe: &Recipe,
     edits: &Edits,
 ) -> Result<Recipe, Error> {
-    let count = found(engine, recipe, edits)?;
+    let count = counter.found(recipe, edits)?;
     let mut priced = recipe.clone();
     priced.keys.per_second = f64::INFINITY;
     let mut at = |price: f64| {
         priced.keys.min_price = price;
-        Ok::<_, Error>((found(engine, &priced, edits)?, priced.clone()))
+        Ok::<_, Error>((counter.found(&priced, edits)?, priced.clone()))
     };
     let (mut low, mut high) = PRICES;
     for _ in 0..HALVINGS {
@@ -69,7 +80,11 @@ pub(super) fn by_price(
 
 /// Counts the keys of a recipe that are there because they are worth it. Corrections that change only their
 /// neighbourhood come after the settings, so keys that they add or remove do not count.
-pub(super) fn found(engine: &mut Engine, recipe: &Recipe, edits: &Edits) -> Result<usize, Error> {
+pub(super) fn count_found(
+    engine: &mut Engine,
+    recipe: &Recipe,
+    edits: &Edits,
+) -> Result<usize, Error> {
     if edits.only_pins || edits.freeze() {
         return Ok(0);
     }

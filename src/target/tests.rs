@@ -78,13 +78,36 @@ fn what_stands_in_the_way_is_said() {
 }
 
 #[test]
+fn a_search_in_steps_finds_what_the_search_at_once_finds_and_counts_once_a_step() {
+    for clip in ["kick", "swing"] {
+        let mut engine = engine(clip);
+        let edits = Edits { pins: vec![Pin::parse("42").unwrap()], ..Edits::default() };
+        for count in [0, 5, 14, 900] {
+            let mut search = Search::new(&Recipe::default(), &edits, count);
+            let mut steps = 0;
+            let met = loop {
+                steps += 1;
+                let met = search.step(&mut engine);
+                assert!(search.counts() <= steps, "{} counts in {steps} steps", search.counts());
+                if let Some(met) = met {
+                    break met.unwrap();
+                }
+            };
+            assert!(steps > 1, "it is spread over steps");
+            let target = [Target::Keys(count)];
+            assert_eq!(met, meet(&mut engine, &Recipe::default(), &edits, &target).unwrap());
+        }
+    }
+}
+
+#[test]
 fn a_reason_names_what_is_so_and_nothing_else() {
     let mut engine = engine("kick");
     let mut said = |set: &str, edits: &Edits, target| {
         let mut recipe = Recipe::default();
         recipe.set("keys.rest", set).unwrap();
         let met = meet(&mut engine, &recipe, edits, &[target]).unwrap();
-        met.outcomes[0].shortfall.clone().unwrap()
+        met.outcomes[0].shortfall.clone().unwrap().to_string()
     };
     let pins = |texts: &[&str]| texts.iter().map(|pin| Pin::parse(pin).unwrap()).collect();
     let pinned = Edits { pins: pins(&["42"]), ..Edits::default() };
@@ -109,6 +132,27 @@ fn a_reason_names_what_is_so_and_nothing_else() {
 }
 
 #[test]
+fn a_reason_in_japanese_says_the_same_as_in_english() {
+    let mut engine = engine("kick");
+    let pinned = Edits { pins: vec![Pin::parse("42").unwrap()], ..Edits::default() };
+    let mut said = |edits: &Edits, target| {
+        let met = meet(&mut engine, &Recipe::default(), edits, &[target]).unwrap();
+        met.outcomes[0].japanese()
+    };
+    assert_eq!(
+        said(&pinned, Target::Keys(0)),
+        "原画0枚の指定に対して3枚: 最初と最後の画は必ず原画。間の1枚は固定なので残る"
+    );
+    let most = said(&pinned, Target::Keys(900));
+    assert!(
+        most.ends_with("もう入らない: 1枚の画は最低2コマ見せる。spacing.on=1 なら増やせる"),
+        "{most}"
+    );
+    let near = said(&Edits::default(), Target::MaxError(0.001));
+    assert!(near.contains("92コマ中") && near.contains("--pin"), "{near}");
+}
+
+#[test]
 fn the_frame_that_is_furthest_off_may_be_forbidden() {
     let mut engine = engine("kick");
     let mut recipe = Recipe::default();
@@ -116,7 +160,7 @@ fn the_frame_that_is_furthest_off_may_be_forbidden() {
     let mut said = |edits: &Edits| {
         let target = [Target::MaxError(0.1)];
         let met = meet(&mut engine, &recipe, edits, &target).unwrap();
-        met.outcomes[0].shortfall.clone().unwrap()
+        met.outcomes[0].shortfall.clone().unwrap().to_string()
     };
     let free = said(&Edits::default());
     assert!(
@@ -306,7 +350,7 @@ proptest! {
         let recipe = Recipe::default();
         let met = meet(&mut engine, &recipe, &edits, &[Target::MaxError(most)]).unwrap();
         let outcome = &met.outcomes[0];
-        let found = key_count_search::found(&mut engine, &met.recipe, &edits).unwrap();
+        let found = key_count_search::count_found(&mut engine, &met.recipe, &edits).unwrap();
         let worst = engine.reconstruction(&met.recipe, &edits).unwrap().worst();
         prop_assert_eq!(outcome.reached, worst);
         prop_assert_eq!(outcome.shortfall.is_none(), worst <= most, "{}", outcome);
@@ -317,7 +361,7 @@ proptest! {
             let mut other = recipe.clone();
             other.keys.per_second = f64::INFINITY;
             other.keys.min_price = price;
-            let sparse = key_count_search::found(&mut engine, &other, &edits).unwrap() < found;
+            let sparse = key_count_search::count_found(&mut engine, &other, &edits).unwrap() < found;
             prop_assert!(!sparse || beyond(most, &mut engine, &other, &edits) >= least, "{}", price);
         }
         let again = meet(&mut engine, &met.recipe, &edits, &[Target::MaxError(most)]).unwrap();

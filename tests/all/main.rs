@@ -61,3 +61,4 @@ mod timesheets; // sheets for programs and for paper, and keys marked on them
 mod tiny_clips; // the smallest clips with any recipe never panic
 mod trial; // trials: people choose between two films
 mod versions; // two versions side by side, and in trials
+mod vocabulary; // one word each, in both languages

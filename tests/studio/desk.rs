@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, Weak};
 
 use genga::edits::Edits;
+use genga::sheet::Sheet;
 use genga_cli::Disk;
 use genga_studio::{Export, Exported, Host, Opened, Pictures, Playing, Waveform};
 
@@ -84,6 +85,16 @@ impl Host for Memory {
             return Ok(vec![].into());
         }
         self.disk.export(folder, export, tell)
+    }
+
+    fn put_sample(&self, name: &str, text: &str) -> Result<PathBuf, String> {
+        let path = crate::harness::sample(name);
+        assert_eq!(std::fs::read_to_string(&path).unwrap(), text);
+        Ok(path)
+    }
+
+    fn sheet_in(&self, folder: &Path, clip: &Path) -> Option<Sheet> {
+        self.disk.sheet_in(folder, clip)
     }
 
     fn choose(&self) -> Option<PathBuf> {

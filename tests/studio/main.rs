@@ -11,6 +11,7 @@ mod difference; // what a change made of the sheet, before and after it
 mod footage; // pictures and sound that were recorded beside the motion
 mod goals; // three goals and presets, and the program's own results
 mod harness; // a studio with a clip on the table
+mod kept_numbers; // numbers of drawings that stay from export to export
 mod keyboard; // every act without a mouse
 mod knobs; // expert settings, undone and redone
 mod layered; // several columns, each with its own pins
@@ -25,5 +26,6 @@ mod saving; // saved, opened, recovered, exported
 mod seen; // play, step, loop, flip, look from a side
 mod software_renderer; // a renderer without a graphics card
 mod spoken; // lines of the S column
+mod start; // the built-in clip and the tour
 mod strip; // genga as figures over time: chosen, dragged, pinned, forbidden, held, played
 mod window_sizes; // small windows, and screens with many pixels a point

@@ -33,7 +33,7 @@ impl Table {
     }
 
     /// Exports with the last order.
-    fn export(&mut self) {
+    pub(crate) fn export(&mut self) {
         self.tap(Modifiers::COMMAND, Key::E);
         self.harness.get_by_label("Write the files").click();
         (0..3).for_each(|_| self.harness.step());

@@ -22,7 +22,7 @@ impl Table {
     }
 
     /// What the strip says of itself: the drawing and the koma at the play head.
-    fn strip_says(&self) -> String {
+    pub(crate) fn strip_says(&self) -> String {
         let role = egui::accesskit::Role::Canvas;
         let strip = self.harness.get_by_role_and_label(role, "Strip of genga");
         strip.accesskit_node().value().unwrap()

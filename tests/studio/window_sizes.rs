@@ -127,6 +127,21 @@ fn with_any_panel_nothing_is_cut_and_views_are_left() {
 }
 
 #[test]
+fn the_tour_fits() {
+    every_window("tour", |table| {
+        table.tap(Modifiers::NONE, Key::F1);
+        let begin = table.harness.query_by_label("Tour of six steps");
+        begin
+            .or_else(|| table.harness.query_by_label("6ステップの案内"))
+            .unwrap()
+            .click_accesskit();
+        table.harness.run();
+        assert!(table.harness.query_by_label("1/6").is_some());
+        table.faults()
+    });
+}
+
+#[test]
 fn the_order_of_an_export_fits() {
     every_window("export", |table| {
         table.tap(Modifiers::COMMAND, Key::E);

@@ -94,7 +94,7 @@ JAPANESE = {
     "Ignore this bone; it still gets keys": "このボーンを無視する。キーは付く",
     "Also leave out the selected bones": "選択したボーンも除く",
     "Untick all bones": "すべてのボーンのチェックを外す",
-    "Use only the markers “pin” and keys of type Extreme as genga": "マーカー「pin」と「極値」のキーだけを原画にする",
+    "Use only the markers “pin” and keys of type Extreme as genga": "固定のマーカー「pin」と「極値」のキーだけを原画にする",
     "Always make the current frame, or in the dope sheet those of selected keys, genga":
         "現在のフレームを必ず原画にする。ドープシートでは選択したキーのフレーム",
     "Find no genga near the current frame, or in the dope sheet near selected keys":

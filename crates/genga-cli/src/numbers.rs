@@ -62,7 +62,7 @@ impl Numbering {
 }
 
 /// Reads the sheet in a folder, if there is one, or says why its numbers are no use.
-fn before(folder: &Folder<'_>, clip: &ClipMark) -> Result<Option<Sheet>, String> {
+pub(super) fn before(folder: &Folder<'_>, clip: &ClipMark) -> Result<Option<Sheet>, String> {
     let path = folder.path().join(SHEET);
     if !path.is_file() {
         return Ok(None);

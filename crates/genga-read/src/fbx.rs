@@ -36,8 +36,8 @@ pub(super) fn read(
     _: &super::reading::Given<'_>,
     _: &super::reading::Options,
 ) -> Result<super::reading::Read, genga::error::Error> {
-    let message =
-        "is FBX, and this genga was built without the feature fbx; export the motion as BVH or GLB";
+    let message = "is FBX, which the studio's page and a genga without the feature fbx do not read: export the motion as BVH or \
+         GLB, or open it in the window or in Blender";
     let place = genga::error::Place::Whole;
     Err(genga::error::Error::Motion { place, message: message.into() })
 }

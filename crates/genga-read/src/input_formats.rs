@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use crate::reading::{Given, Options, Read};
-use crate::{acclaim, fbx, gltf, mmd};
+use crate::{acclaim, fbx, foreign, gltf, mmd};
 use genga::error::{Error, Place};
 
 /// A motion file format (形式).
@@ -91,6 +91,15 @@ pub const FORMATS: &[Format] = &[
         begins: |head| head.starts_with(b"PMX ") || head.starts_with(b"Pmd"),
         read: |_, _| Err(refused(MODEL)),
     },
+    Format {
+        name: "others",
+        endings: &[],
+        holds: "scenes of Blender and Maya, USD, archives, pictures, films: they are refused",
+        has_curves: false,
+        has_skeleton_file: false,
+        begins: foreign::begins,
+        read: |given, _| Err(foreign::refuse(given.bytes)),
+    },
 ];
 
 impl Format {
@@ -106,6 +115,12 @@ impl Format {
     pub fn ends(&self, path: &Path) -> bool {
         let ending = path.extension().unwrap_or_default();
         self.endings.iter().any(|own| ending.eq_ignore_ascii_case(own))
+    }
+
+    /// Names all formats in the error of a file that does not even begin like the one it was taken for.
+    pub(super) fn explain(&self, error: Error, head: &[u8]) -> Error {
+        let is_taken = self.is_native() && !(self.begins)(head);
+        if is_taken { foreign::with_formats(error) } else { error }
     }
 
     /// Whether this is BVH, which is opened by its own reader.

@@ -13,6 +13,7 @@
 
 mod acclaim;
 mod fbx;
+mod foreign;
 mod gltf;
 mod gltf_camera;
 mod input_formats;
@@ -92,7 +93,8 @@ impl Options {
         let format = Format::detect(&bytes, Some(path));
         self.check(format)?;
         if format.is_native() {
-            let read = self.for_bvh().open(path)?.into();
+            let read =
+                self.for_bvh().open(path).map_err(|error| format.explain(error, &bytes))?.into();
             self.check_take(&[])?;
             return Ok(self.declare(read));
         }
@@ -115,9 +117,11 @@ impl Options {
     }
 
     fn given(&self, bytes: &[u8], path: Option<&Path>) -> Result<Read, Error> {
-        let format = Format::detect(&bytes[..bytes.len().min(HEAD)], path);
+        let head = &bytes[..bytes.len().min(HEAD)];
+        let format = Format::detect(head, path);
         self.check(format)?;
-        self.read_as(format, &Given { bytes, path })
+        let read = self.read_as(format, &Given { bytes, path });
+        read.map_err(|error| format.explain(error, head))
     }
 
     /// Rejects options that the format does not support.

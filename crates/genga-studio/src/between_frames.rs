@@ -16,6 +16,7 @@ use super::strip::Strip;
 use super::task::{self, Task};
 use super::timesheet::Timesheet;
 use super::viewport::Viewport;
+use super::welcome;
 
 impl Studio {
     /// Collects what comes from outside: a clip that was read, results that were written, files that were chosen or
@@ -25,11 +26,18 @@ impl Studio {
             self.opening = None;
             match read {
                 Ok(take) => self.put_on_table(take),
-                Err(text) => self.fail(text),
+                Err(text) => {
+                    let (_, formats) = welcome::formats(self.desk.has_names());
+                    let japanese = Some(format!("開けるのは {formats}\n{text}"));
+                    self.message = Some(Message { japanese, ..Message::failure(text) });
+                }
             }
         }
         if let Some(written) = self.exporting.as_ref().and_then(Exporting::look) {
-            let to = self.exporting.take().and_then(|exporting| exporting.to);
+            let to = self.exporting.take().and_then(|exporting| {
+                self.number_as_exported(&exporting);
+                exporting.to
+            });
             match (written, to) {
                 (Ok(text), Some(to)) => {
                     let (next, japanese) = to.next();
@@ -72,10 +80,18 @@ impl Studio {
         }
     }
 
+    /// Numbers the drawings as in the files that were just written, if they are of the clip on the table.
+    fn number_as_exported(&mut self, exported: &Exporting) {
+        if let Some(take) = self.take.as_mut().filter(|take| take.path == exported.clip) {
+            take.number_as_in(&*self.desk, &exported.folder);
+        }
+    }
+
     fn put_on_table(&mut self, mut take: Take) {
         if let Some(before) = self.take.as_ref().filter(|_| self.takes.share) {
             take.wanted.take_settings(&before.document().recipe);
         }
+        take.number_as_in(&*self.desk, &self.export_folder(&take));
         let breakdown = take.results().breakdown;
         self.curves = Curves::new(breakdown.filtered.movers_first(breakdown.clip.skeleton()));
         (self.player, self.chosen) = (Player::default(), 0);
@@ -89,6 +105,7 @@ impl Studio {
         self.recent = self.desk.recent();
         (self.held, self.before, self.message) = (None, None, None);
         (self.difference, self.asked, self.is_before) = (None, None, false);
+        self.searching = None;
         self.take = Some(take);
     }
 
@@ -96,7 +113,7 @@ impl Studio {
     pub(super) fn settle(&mut self, ui: &Ui) {
         let is_held = ui.input(|input| input.pointer.any_down());
         self.note_before(is_held);
-        self.answer_keys(is_held);
+        self.answer_keys(ui, is_held);
         let Some(take) = &mut self.take else { return };
         match take.renew(is_held) {
             Ok(false) => {}
@@ -129,7 +146,8 @@ impl Studio {
     /// Notes the sheet before a change: once for all that a drag changes.
     fn note_before(&mut self, is_held: bool) {
         let Some(take) = self.take.as_mut().filter(|_| self.before.is_none()) else { return };
-        if is_held || self.asked.is_some() || take.is_behind() {
+        let is_asked = self.asked.is_some() || self.searching.is_some();
+        if is_held || is_asked || take.is_behind() {
             let counts = take.counts();
             self.before = Some(Before::new(&take.results().breakdown, counts));
         }

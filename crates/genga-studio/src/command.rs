@@ -116,6 +116,8 @@ pub(super) enum Command {
     Preset(&'static Preset),
     /// Finds settings with this many genga.
     Keys(usize),
+    /// Ends the search for a number of genga.
+    StopSearch,
     /// Resets all knobs to their defaults.
     Defaults,
     Undo,
@@ -137,6 +139,13 @@ pub(super) enum Command {
     SaveAs(PathBuf),
     /// Opens the system's file dialog.
     Choose,
+    /// Opens the built-in clip, and begins the tour.
+    Sample,
+    /// Begins the tour.
+    Tour,
+    /// Goes to the next step of the tour, or to the one before.
+    TourStep(isize),
+    EndTour,
     /// Opens the export panel.
     AskExport,
     /// Runs an export.

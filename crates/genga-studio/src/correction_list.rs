@@ -2,6 +2,7 @@
 
 use egui::{CollapsingHeader, Panel, RichText, ScrollArea, Ui};
 
+use super::column::KeyedCell;
 use super::command::Command;
 use super::corrections::Correction;
 use super::focus;
@@ -10,6 +11,7 @@ use super::view_state::Shown;
 use super::words::Words;
 use genga::edits::{LayerEdits, Pin};
 use genga::keys::{Key, Origin};
+use genga::sheet::Number;
 use genga::time::Frame;
 
 /// Height of the list in points; more is scrolled.
@@ -158,14 +160,24 @@ impl Row<'_> {
             if icon::button(ui, Icon::Cross, &name).clicked() {
                 commands.push(Command::CorrectOf(self.column.map(String::from), back));
             }
-            if ui.link(&what).clicked()
-                && let Some(frame) = self.at
-            {
+            let is_clicked = ui.link(&what).clicked();
+            if let Some(number) = self.at.and_then(|frame| self.genga_number(frame, shown)) {
+                ui.weak(format!("{} {number}", shown.words.say("genga", "原画")));
+            }
+            if is_clicked && let Some(frame) = self.at {
                 let column = shown.columns.iter().position(|own| Some(own.name) == self.column);
                 commands.extend(column.and_then(|column| shown.choose(column)));
                 commands.push(Command::Go(shown.column().clock.koma_from_frame(frame)));
             }
         });
+    }
+
+    /// The number of the genga that a frame has in its column, or in the selected one.
+    fn genga_number(&self, frame: Frame, shown: &Shown<'_>) -> Option<Number> {
+        let own = shown.columns.iter().find(|column| Some(column.name) == self.column);
+        let cells = &own.unwrap_or(shown.column()).cells;
+        let is_it = |cell: &&KeyedCell<'_>| cell.key.is_some_and(|key| key.frame == frame);
+        cells.iter().find(is_it)?.genga_number()
     }
 }
 

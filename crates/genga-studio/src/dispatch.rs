@@ -55,6 +55,7 @@ impl Studio {
 
     /// Carries out a command.
     pub(super) fn act(&mut self, ui: &Ui, command: Command) {
+        self.tour.watch(&command);
         match command {
             Command::Play
             | Command::Koma(_)
@@ -113,6 +114,7 @@ impl Studio {
             Command::Passage => self.make_passage(),
             Command::Dissolve(frames) => self.dissolve(frames),
             Command::Keys(count) => self.ask_keys(ui, count),
+            Command::StopSearch => self.searching = None,
             Command::Map => self.map.toggle(),
             Command::Movement => self.curves.movement = !self.curves.movement,
             Command::FocusName => self.key_panel.wants_focus = true,
@@ -138,6 +140,13 @@ impl Studio {
             Command::Take(by) => self.step_take(by),
             Command::Mark(is_done) => self.mark_take(is_done),
             Command::Choose => self.choose(),
+            Command::Sample => self.open_sample(),
+            Command::Tour => {
+                self.tour.begin();
+                self.is_help_open = false;
+            }
+            Command::TourStep(by) => self.tour.step(by),
+            Command::EndTour => self.tour.end(),
             Command::Recover => self.take.iter_mut().for_each(Take::recover),
             Command::Discard => self.discard(),
             Command::Theme => {
@@ -161,30 +170,10 @@ impl Studio {
                 self.order.order = None;
                 self.speech.close();
                 self.footage.is_open = false;
-                (self.difference, self.leaving) = (None, None);
+                (self.difference, self.leaving, self.searching) = (None, None, None);
             }
         }
         ui.ctx().request_repaint();
-    }
-
-    /// Asks for a number of genga. During a drag it is asked of the recipe that the drag began with.
-    fn ask_keys(&mut self, ui: &Ui, count: usize) {
-        let Some(take) = &self.take else { return };
-        if ui.input(|input| input.pointer.any_down()) {
-            self.held.get_or_insert_with(|| take.wanted.clone());
-        }
-        self.asked = Some(count);
-    }
-
-    /// Finds the settings of the number of genga that was asked for. A slow search waits until the pointer is released.
-    pub(super) fn answer_keys(&mut self, is_held: bool) {
-        let Some(take) = &mut self.take else { return };
-        let Some(count) = self.asked.take_if(|_| !(is_held && take.is_slow_to_ask)) else { return };
-        let of = self.held.as_ref().unwrap_or(&take.wanted).recipe.clone();
-        match take.ask_keys(&of, count) {
-            Ok(()) => self.message = None,
-            Err(error) => self.fail(error.to_string()),
-        }
     }
 
     fn discard(&mut self) {

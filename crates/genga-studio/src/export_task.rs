@@ -46,7 +46,9 @@ impl Parcel {
 
 /// An export in progress.
 pub(super) struct Exporting {
-    folder: PathBuf,
+    pub(super) folder: PathBuf,
+    /// The clip that is exported.
+    pub(super) clip: PathBuf,
     /// Where the results go. `None` for formats of its own.
     pub(super) to: Option<&'static Destination>,
     /// Name of the result being written.
@@ -59,6 +61,7 @@ impl Exporting {
     /// Starts writing.
     pub(super) fn begin(desk: &Arc<dyn Host>, parcel: Parcel) -> Self {
         let (desk, folder) = (Arc::clone(desk), parcel.order.folder.clone());
+        let clip = parcel.clip.clone();
         let to = destinations::of(&parcel.order);
         let what: Arc<Mutex<String>> = Arc::default();
         let told = Arc::clone(&what);
@@ -80,7 +83,7 @@ impl Exporting {
             }
             None
         });
-        Self { folder, to, what, stop, errand }
+        Self { folder, clip, to, what, stop, errand }
     }
 
     /// Returns the files written, or why there are none, as a sentence. `None` while writing.

@@ -1,17 +1,22 @@
 //! Files (ファイル): saving, exporting and choosing, and the takes of a folder.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::Studio;
 use super::export_settings::Order;
 use super::export_task::Exporting;
+use super::open_take::Take;
 use super::take_list::{Mark, Takes};
 use super::task::Task;
+use genga::motion::bvh;
 
 /// Names under which the desk notes the last order and its folder.
 const EXPORT: &str = "export";
 const INTO: &str = "export-into";
+
+/// Name of the built-in clip.
+const SAMPLE: &str = "kick.bvh";
 
 impl Studio {
     /// Opens a clip. For a folder, lists its takes and opens the first; without takes, shows its pictures.
@@ -67,10 +72,26 @@ impl Studio {
     /// Opens the export panel with the last order, unless an export is running.
     pub(super) fn ask_export(&mut self) {
         let (Some(take), None) = (&self.take, &self.exporting) else { return };
-        let into = self.desk.noted(INTO).filter(|into| !into.trim().is_empty());
-        let folder = take.folder(into.as_deref().map(|into| Path::new(into.trim())));
+        let folder = self.export_folder(take);
         let order = Order::remembered(&self.desk.noted(EXPORT).unwrap_or_default(), folder);
         self.order.ask(order, &*self.desk);
+    }
+
+    /// The folder into which a take is exported unless another is chosen.
+    pub(super) fn export_folder(&self, take: &Take) -> PathBuf {
+        let into = self.desk.noted(INTO).filter(|into| !into.trim().is_empty());
+        take.folder(into.as_deref().map(|into| Path::new(into.trim())))
+    }
+
+    /// Opens the built-in clip, and begins the tour.
+    pub(super) fn open_sample(&mut self) {
+        match self.desk.put_sample(SAMPLE, bvh::KICK) {
+            Ok(path) => {
+                self.tour.begin();
+                self.open_or_ask(path);
+            }
+            Err(text) => self.fail(text),
+        }
     }
 
     pub(super) fn choose_folder(&mut self) {

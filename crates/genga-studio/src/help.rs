@@ -2,6 +2,7 @@
 
 use egui::{Align2, Grid, Id, Key, ScrollArea, Ui, Vec2, Window, vec2};
 
+use super::command::Command;
 use super::keyboard::{BINDINGS, Binding};
 use super::words::Words;
 
@@ -9,10 +10,10 @@ use super::words::Words;
 const COLUMN: f32 = 380.0;
 const ROW: f32 = 21.0;
 /// Space for the title and at the sides, in points.
-const ROOM: Vec2 = vec2(60.0, 90.0);
+const ROOM: Vec2 = vec2(60.0, 118.0);
 
 /// Shows the list while it is open, in as many columns as fit. The rest can be scrolled.
-pub(super) fn show(ui: &Ui, is_open: &mut bool, words: Words) {
+pub(super) fn show(ui: &Ui, is_open: &mut bool, words: Words, commands: &mut Vec<Command>) {
     let title = words.say("Keys", "キー一覧");
     let room = ui.ctx().content_rect().size() - ROOM;
     let most = ((room.x / COLUMN) as usize).clamp(1, 3);
@@ -21,6 +22,9 @@ pub(super) fn show(ui: &Ui, is_open: &mut bool, words: Words) {
     let window = Window::new(title).id(Id::unique("help")).open(is_open).collapsible(false);
     let window = window.anchor(Align2::CENTER_CENTER, Vec2::ZERO).resizable(false);
     window.show(ui.ctx(), |ui| {
+        if ui.button(words.say("Tour of six steps", "6ステップの案内")).clicked() {
+            commands.push(Command::Tour);
+        }
         ScrollArea::vertical().max_height(room.y).show(ui, |ui| {
             ui.set_max_width(COLUMN * columns as f32);
             ui.horizontal_top(|ui| {

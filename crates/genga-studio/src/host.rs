@@ -12,6 +12,7 @@ use genga::edits::Edits;
 use genga::motion::Clip;
 use genga::pipeline::Breakdown;
 use genga::recipe::Recipe;
+use genga::sheet::Sheet;
 use genga_files::Settings;
 
 /// Access to files, as the host program has it. Every failure is described in one plain sentence.
@@ -69,6 +70,20 @@ pub trait Host: Send + Sync {
         export: &Export<'_>,
         tell: &dyn Fn(&str),
     ) -> Result<Exported, String>;
+
+    /// Puts the built-in clip where [`open`](Self::open) finds it, and returns its path. Nothing is overwritten.
+    ///
+    /// # Errors
+    /// Why it cannot be put there. By default there is no such place.
+    fn put_sample(&self, name: &str, _text: &str) -> Result<PathBuf, String> {
+        Err(format!("{name}: there is no place for it here"))
+    }
+
+    /// Returns the sheet that the last export of a clip wrote into a folder: its drawings keep their numbers. Default:
+    /// there is none, and drawings are numbered from 1.
+    fn sheet_in(&self, _folder: &Path, _clip: &Path) -> Option<Sheet> {
+        None
+    }
 
     /// Lets the person choose a clip or a recipe in a system dialog, on its own thread. `None` if they cancel. Default:
     /// the desk has no dialog, and returns `None`.

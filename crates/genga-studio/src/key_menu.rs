@@ -85,7 +85,7 @@ impl KeyPanel {
             return;
         };
         ui.horizontal(|ui| {
-            let number = cell.genga.map_or_else(String::new, |number| number.to_string());
+            let number = cell.genga_number().map_or_else(String::new, |number| number.to_string());
             ui.strong(format!("{} {number}", words.say("Genga", "原画")));
             let frame = key.frame;
             ui.weak(match words.is_japanese() {

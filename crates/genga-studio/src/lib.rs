@@ -36,12 +36,14 @@ mod footage;
 mod footage_cache;
 mod footage_panel;
 mod freeze;
+mod genga_search;
 mod goals;
 mod held_key;
 mod help;
 mod history;
 mod host;
 mod icon;
+mod kept_numbers;
 mod key_menu;
 mod keyboard;
 mod knobs;
@@ -70,6 +72,7 @@ mod theme;
 mod time_axis;
 mod timesheet;
 mod toolbar;
+mod tour;
 mod transport;
 mod unsaved;
 mod view_state;
@@ -95,6 +98,7 @@ use export_task::Exporting;
 use file_field::FileField;
 use footage_cache::FrameCache;
 use footage_panel::FootagePanel;
+use genga_search::GengaSearch;
 use goals::Goals;
 use key_menu::KeyPanel;
 use knobs::Knobs;
@@ -113,6 +117,7 @@ use task::Task;
 use theme::Look;
 use timesheet::Timesheet;
 use toolbar::Bar;
+use tour::Tour;
 use viewport::Viewport;
 use words::Words;
 
@@ -147,6 +152,7 @@ pub struct Studio {
     may_close: bool,
     file: FileField,
     is_help_open: bool,
+    tour: Tour,
     panels: Panels,
     arrival: Arrival,
     player: Player,
@@ -161,6 +167,9 @@ pub struct Studio {
     goals: Goals,
     /// The number of genga that is asked for and not yet found.
     asked: Option<usize>,
+    searching: Option<GengaSearch>,
+    /// Seconds of a search in its first frame.
+    patience: f64,
     knobs: Knobs,
     map: Map,
     key_panel: KeyPanel,
@@ -202,6 +211,7 @@ impl Studio {
             may_close: false,
             file: FileField::default(),
             is_help_open: false,
+            tour: Tour::default(),
             panels: Panels::default(),
             arrival: Arrival::default(),
             player: Player::default(),
@@ -213,6 +223,8 @@ impl Studio {
             curves: Curves::default(),
             goals: Goals::default(),
             asked: None,
+            searching: None,
+            patience: genga_search::PATIENT,
             knobs: Knobs::default(),
             map: Map::default(),
             key_panel: KeyPanel::default(),
@@ -280,6 +292,12 @@ impl Studio {
             bar.show(ui, self.take.as_ref(), before);
         });
         self.goals(ui, &look, words, &mut commands);
+        if self.tour.is_shown() && self.take.is_some() {
+            let frame = Frame::side_top_panel(ui.style());
+            Panel::top("tour").frame(frame).show(ui, |ui| {
+                self.tour.show(ui, &look, words, &mut commands);
+            });
+        }
         self.renew_footage(ui);
         match self.take {
             Some(_) => self.table(ui, look, words, &mut commands),
@@ -289,7 +307,7 @@ impl Studio {
             }
         }
         self.notices(ui, &look, words, &mut commands);
-        help::show(ui, &mut self.is_help_open, words);
+        help::show(ui, &mut self.is_help_open, words, &mut commands);
         focus::show(ui, &look);
         for command in commands {
             self.act(ui, command);

@@ -11,8 +11,10 @@ use super::document::Document;
 use super::export_settings::Order;
 use super::export_task::Parcel;
 use super::freeze;
+use super::genga_search::GengaSearch;
 use super::history::History;
 use super::host::{Host, Opened};
+use super::kept_numbers::KeptNumbers;
 use super::opening_steps::Step;
 use super::scene::Scene;
 use super::unsaved::{Unsaved, beside, read};
@@ -20,13 +22,10 @@ use genga::error::Error;
 use genga::motion::Clip;
 use genga::pipeline::{Breakdown, Engine};
 use genga::recipe::Recipe;
-use genga::target::{Target, meet};
 use genga_plot::parts::Cels;
 
 /// Longest run, in seconds, that is still repeated during a drag.
 const QUICK: f64 = 0.04;
-/// Longest search for a number of genga, in seconds, that is still repeated during a drag.
-const PATIENT: f64 = 0.12;
 
 /// The results of a clip and its document, and the document asked for next.
 pub(super) struct Results<'a> {
@@ -76,6 +75,7 @@ pub(super) struct Take {
     cels: Option<Cels>,
     /// The counts of its sheet. `None` before the chain has run.
     counts: Option<Counts>,
+    numbers: KeptNumbers,
     saved: Document,
     /// State last kept in case of a crash.
     kept: Unsaved,
@@ -114,6 +114,7 @@ impl Take {
             document: saved.clone(),
             cels: None,
             counts: None,
+            numbers: KeptNumbers::default(),
             kept: Unsaved::nothing(&saved),
             saved,
             is_slow: false,
@@ -139,6 +140,7 @@ impl Take {
             Step::Lay => {
                 let breakdown = engine.last(recipe).expect("it was timed in the step before");
                 self.counts = Some(Counts::new(&breakdown));
+                self.numbers.renew(breakdown.sheet);
                 Cels::new(breakdown.clip, breakdown.sheet).map(|cels| self.cels = Some(cels))
             }
         };
@@ -164,7 +166,15 @@ impl Take {
         }
         let breakdown = self.engine.last(recipe).expect("the chain has run");
         let cels = self.cels.as_ref().expect("cels are laid once the chain has run");
+        let breakdown = self.numbers.on(breakdown);
         Results { breakdown, cels, scene: &self.scene, wanted: &self.wanted }
+    }
+
+    /// Numbers the drawings as on the sheet in an export folder.
+    pub(super) fn number_as_in(&mut self, desk: &dyn Host, folder: &Path) {
+        self.numbers = KeptNumbers::find(desk, folder, &self.path);
+        let sheet = self.results().breakdown.sheet.clone();
+        self.numbers.renew(&sheet);
     }
 
     /// Whether another document is asked for than that of the results.
@@ -191,7 +201,9 @@ impl Take {
         self.is_elsewhere = true;
         let laid = self.engine.run(recipe, edits);
         let laid = laid.and_then(|breakdown| {
-            Ok((laid_again(&breakdown, recipe, before)?, Counts::new(&breakdown)))
+            let cels = laid_again(&breakdown, recipe, before)?;
+            self.numbers.renew(breakdown.sheet);
+            Ok((cels, Counts::new(&breakdown)))
         });
         match laid {
             Ok((cels, counts)) => {
@@ -248,15 +260,10 @@ impl Take {
         self.counts.expect("sheets are counted once the chain has run")
     }
 
-    /// Finds the settings with which a recipe's sheet has this many genga, or as near as possible, as `--keys` does.
-    /// Whether that took too long to be done again during a drag is known after the first time.
-    pub(super) fn ask_keys(&mut self, of: &Recipe, count: usize) -> Result<(), Error> {
-        let begin = Instant::now();
-        self.is_elsewhere = true;
-        let targets = [Target::Keys(count)];
-        self.wanted.recipe = meet(&mut self.engine, of, &self.wanted.edits, &targets)?.recipe;
-        self.is_slow_to_ask = begin.elapsed().as_secs_f64() > PATIENT;
-        Ok(())
+    /// Begins a search for settings with which a recipe's sheet has this many genga, or as near as possible, as `--keys`
+    /// does.
+    pub(super) fn search(&self, of: &Recipe, count: usize) -> GengaSearch {
+        GengaSearch::new(self.engine.clone(), of, &self.wanted, count)
     }
 
     /// Whether there are unsaved changes.

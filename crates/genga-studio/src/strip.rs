@@ -27,6 +27,9 @@ const LOW: f32 = 96.0;
 const USUAL: f32 = 128.0;
 const HIGH: f32 = 156.0;
 
+/// Height of the koma numbers in points.
+const NUMBERS: f32 = 13.0;
+
 /// State of the strip: the part of the sheet in view, and what the pointer does.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Strip {
@@ -88,7 +91,7 @@ impl Strip {
             self.window.reveal(shown.at as f64);
         }
         let layout = Layout::new(rect, self.window.scale(inside));
-        let figured = choice::choose(&layout, shown);
+        let figured = choice::choose(&layout, shown, player.is_playing());
         self.hover(ui, &layout, &figured, response.dragged(), shown);
         self.hand.handle(&response, &layout, &figured, shown, commands);
         self.draw(ui, &layout, &figured, (shown, difference), (orbit, player));
@@ -159,19 +162,26 @@ impl Strip {
             let played = Rect::from_x_y_ranges(played, layout.rect.y_range());
             painter.rect_filled(played, 0.0, look.chosen);
         }
+        let cells = &shown.column().cells;
+        let current = shown.column().at(shown.at);
+        if figured.binary_search(&current).is_ok() {
+            let slot = layout.slot(layout.x(cells[current].koma));
+            painter.rect_filled(slot, 4.0, look.chosen);
+        }
+        // Behind the numbers of genga and below those of koma, so that none is struck out.
+        let (x, top) = (layout.x(shown.at), layout.rect.min.y + NUMBERS);
+        painter.vline(x, top..=layout.rect.max.y, Stroke::new(2.0, look.playhead));
         track::draw(&painter, layout, figured, shown);
         let changed = difference.and_then(|all| all.columns.get(shown.chosen));
         let passage = self.hovered.as_ref().map(|own| (own, ui.input(|input| input.time)));
         figures::draw(&painter, layout, (figured, passage), (shown, orbit), changed);
-        let x = layout.x(shown.at);
-        painter.vline(x, layout.rect.y_range(), Stroke::new(2.0, look.playhead));
     }
 }
 
 /// Names the strip and the drawing at the play head, as a screen reader says them.
 fn name(response: &egui::Response, shown: &Shown<'_>) {
     let (words, cell) = (shown.words, shown.column().cell(shown.at));
-    let drawing = match cell.genga {
+    let drawing = match cell.genga_number() {
         Some(number) => format!("{} {number}", words.say("genga", "原画")),
         None => words.say("inbetween", "中割り").to_owned(),
     };

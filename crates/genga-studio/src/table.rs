@@ -81,6 +81,9 @@ impl Studio {
             if let Some(opening) = &self.opening {
                 notice::one(ui, look.playhead, |ui| opening.show(ui, words));
             }
+            if let Some(searching) = &self.searching {
+                notice::one(ui, look.playhead, |ui| searching.show(ui, words, commands));
+            }
             if let Some(exporting) = &self.exporting {
                 notice::one(ui, look.playhead, |ui| exporting.show(ui, words, commands));
             }

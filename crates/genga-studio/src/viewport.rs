@@ -230,7 +230,7 @@ fn standing(seen: Seen, shown: &Shown<'_>) -> String {
         };
     }
     let cell = column.cell(shown.at);
-    let number = match (cell.genga, words.is_japanese()) {
+    let number = match (cell.genga_number(), words.is_japanese()) {
         (Some(number), true) => format!("原画 {number}"),
         (Some(number), false) => format!("genga {number}"),
         (None, true) => "中割り".into(),

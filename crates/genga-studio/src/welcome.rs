@@ -7,6 +7,7 @@ use egui::{Button, CentralPanel, Label, RichText, ScrollArea, Ui};
 use super::command::Command;
 use super::file_field;
 use super::theme::Look;
+use super::tour;
 use super::words::Words;
 
 /// Greatest width of the text in points.
@@ -15,7 +16,14 @@ const WIDE: f32 = 620.0;
 /// What can be dropped.
 const FORMATS: (&str, &str) = (
     "BVH, FBX, glTF and GLB, VRM animation, ASF/AMC, VMD of MikuMikuDance, or a folder of takes",
-    "BVH、FBX、glTF・GLB、VRMアニメーション、ASF/AMC、MikuMikuDance の VMD、またはテイクのフォルダー",
+    "BVH、FBX、glTF・GLB、VRMA、ASF/AMC、MikuMikuDance の VMD、テイクのフォルダー",
+);
+/// What can be dropped on a page, which reads no FBX.
+const ON_A_PAGE: (&str, &str) = (
+    "BVH, glTF and GLB, VRM animation, ASF/AMC, VMD of MikuMikuDance. Of an FBX, export BVH or GLB first. Nothing leaves \
+     this computer.",
+    "BVH、glTF・GLB、VRMA、ASF/AMC、MikuMikuDance の VMD。FBX は BVH か GLB に書き出してから。\
+     ファイルはどこにも送られません。",
 );
 
 /// Words that an animator of another school may not know.
@@ -39,31 +47,6 @@ const WORDS: [(&str, &str, &str, &str); 4] = [
         "where the body stops accelerating; seen on the curves",
         "体の加速が終わるところ。グラフに出る",
     ),
-];
-
-/// The first steps, in order.
-const STEPS: [(&str, &str); 6] = [
-    (
-        "Open a clip. The strip below the views shows its genga as figures.",
-        "クリップを開く。画面の下の列に、原画が小さなポーズで並ぶ。",
-    ),
-    (
-        "Space plays. Rest the pointer on a figure to see its passage.",
-        "スペースで再生。ポーズにポインターを置くと、次の原画まで動く。",
-    ),
-    (
-        "Drag How many genga until only the poses you want are left.",
-        "「原画の枚数」を動かし、残したいポーズだけにする。",
-    ),
-    (
-        "Pin a figure that must stay, forbid one that must not.",
-        "残すポーズは固定し、いらないポーズは禁止する。",
-    ),
-    (
-        "Choose Drawings a second and How snappy. V shows before and after.",
-        "「1秒の動画枚数」と「メリハリ」を決める。V で変更前と見比べる。",
-    ),
-    ("Export: choose where it goes.", "書き出し: 届け先を選ぶ。"),
 ];
 
 /// Shows how to open a clip, and what comes then.
@@ -104,13 +87,19 @@ fn open(
 ) {
     let what = words.say("Drop a clip here", "ここにモーションファイルをドロップ");
     ui.label(RichText::new(what).size(24.0).color(look.ink));
-    let formats = RichText::new(words.say(FORMATS.0, FORMATS.1)).color(look.faint);
+    let (english, japanese) = formats(has_names);
+    let formats = RichText::new(words.say(english, japanese)).color(look.faint);
     ui.add(Label::new(formats).wrap());
     ui.add_space(8.0);
     ui.horizontal_wrapped(|ui| {
         if ui.add(Button::new(words.say("Choose a file…", "ファイルを選ぶ…"))).clicked()
         {
             commands.push(Command::Choose);
+        }
+        let sample = words.say("Try it with a kick", "キックで試す");
+        let sample = ui.add(Button::new(sample).selected(true));
+        if sample.on_hover_text(about_sample(has_names, words)).clicked() {
+            commands.push(Command::Sample);
         }
         let name = words.say("or open one by its name", "またはファイル名で開く");
         if has_names && ui.add(Button::new(name)).clicked() {
@@ -125,6 +114,21 @@ fn open(
         });
     }
     ui.add_space(18.0);
+}
+
+/// What can be opened, in English and Japanese.
+pub(super) fn formats(has_names: bool) -> (&'static str, &'static str) {
+    if has_names { FORMATS } else { ON_A_PAGE }
+}
+
+fn about_sample(has_names: bool, words: Words) -> &'static str {
+    match has_names {
+        true => words.say(
+            "A built-in clip of 4 seconds. It is put into the folder genga of your home folder.",
+            "内蔵の4秒のクリップ。ホームの genga フォルダーに置かれる。",
+        ),
+        false => words.say("A built-in clip of 4 seconds", "内蔵の4秒のクリップ"),
+    }
 }
 
 /// Explains the words and the first steps.
@@ -145,8 +149,8 @@ fn explain(ui: &mut Ui, look: &Look, words: Words) {
     }
     ui.add_space(12.0);
     ui.strong(words.say("In a minute", "1分で一通り"));
-    for (at, (english, japanese)) in STEPS.into_iter().enumerate() {
-        line(ui, &(at + 1).to_string(), words.say(english, japanese));
+    for (at, step) in tour::steps(words).enumerate() {
+        line(ui, &(at + 1).to_string(), step);
     }
     ui.add_space(12.0);
 }

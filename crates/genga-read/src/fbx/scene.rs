@@ -97,7 +97,10 @@ fn loaded(bytes: &[u8], options: &Options) -> Result<SceneRoot, Error> {
     ufbx::load_memory(bytes, wanted).map_err(|error| {
         let place = Place::Byte(read.get().min(bytes.len() as u64));
         let reason = error.description.to_string();
-        let message = format!("is no whole FBX: {}, at or behind this byte", reason.to_lowercase());
+        let message = format!(
+            "is no whole FBX: {}, at or behind this byte; export it again, as FBX 2014 or later, GLB or BVH",
+            reason.to_lowercase()
+        );
         Error::Motion { place, message }
     })
 }

@@ -51,14 +51,15 @@ fn genga(painter: &Painter, rect: Rect, bottom: f32, time: &Scale, shown: &Shown
     let every = if apart < CROWDED { step(apart, CALM) } else { 1 };
     let (mut badges, mut ticks) = (Room::default(), Room::default());
     for cell in cells {
-        let (Some(number), Source::At(_)) = (cell.genga, cell.drawing.source) else { continue };
+        let (Some(place), Source::At(_)) = (cell.genga, cell.drawing.source) else { continue };
         let (x, y) = (x(cell), rect.max.y - 11.0);
         let color = look.of_role(cell.drawing.role);
-        let is_numbered = every == 1 || number == 1 || number % every == 0;
+        let is_numbered = every == 1 || place == 1 || place % every == 0;
         if is_numbered && badges.take(x, APART) {
             ticks.take(x, CLOSEST);
             painter.vline(x, y + 8.0..=bottom, Stroke::new(1.0, look.genga_line));
-            badge(painter, pos2(x, y), number, color, cell.key, look.paper);
+            let number = cell.drawing.genga_number(place);
+            badge(painter, pos2(x, y), &number, color, cell.key, look.paper);
         } else if ticks.take(x, CLOSEST) {
             if every == 1 {
                 painter.vline(x, y + 8.0..=bottom, Stroke::new(1.0, look.genga_line));

@@ -79,14 +79,10 @@ pub(super) fn draw(
         ghosts(painter, layout, &mut place, changed, shown);
     }
     let column = shown.column();
-    let current = column.at(shown.at);
     let mut posing = shown.on_screen.posing(shown.scene.figure.marks());
     for &own in figured {
         let cell = &column.cells[own];
         let x = layout.x(cell.koma);
-        if own == current {
-            painter.rect_filled(layout.slot(x), 4.0, shown.look.chosen);
-        }
         let played = passage.filter(|(passage, _)| passage.cell == own);
         let koma = played.and_then(|(passage, now)| passage.at(now, shown)).unwrap_or(cell.koma);
         let pose = posing.koma(koma);

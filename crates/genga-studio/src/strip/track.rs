@@ -43,7 +43,8 @@ fn numbers(painter: &Painter, layout: &Layout, shown: &Shown<'_>) {
     let Ok(rate) = FrameRate::new(column.clock.koma_rate) else { return };
     // On the strip a place is a koma.
     let clock = Clock { first: Frame(0), frame_rate: rate, koma_rate: column.clock.koma_rate };
-    for (place, koma) in layout.time.koma(NUMBER, clock) {
+    let all = layout.time.koma(NUMBER, clock);
+    for (place, koma) in all.into_iter().filter(|(_, koma)| *koma <= column.length) {
         let number = match shown.counts_frames {
             true => shown.frame_of_koma(koma - 1).0,
             false => koma,
@@ -146,7 +147,7 @@ fn badges(painter: &Painter, layout: &Layout, figured: &[usize], shown: &Shown<'
     let mut room = Room::default();
     for index in layout.seen(shown) {
         let (cell, x) = (&cells[index], layout.x(cells[index].koma));
-        let Some(number) = cell.genga else { continue };
+        let Some(number) = cell.genga_number() else { continue };
         let (middle, color) = (pos2(x, layout.badges), look.of_role(cell.drawing.role));
         let has_figure = figured.binary_search(&index).is_ok();
         while next.next_if(|other| *other <= x).is_some() {}
@@ -154,7 +155,7 @@ fn badges(painter: &Painter, layout: &Layout, figured: &[usize], shown: &Shown<'
         // Numbers with figures stand apart already.
         if room.take(x, APART) && is_free || has_figure {
             stem(painter, layout, middle, shown);
-            badge(painter, middle, number, color, cell.key, look.paper);
+            badge(painter, middle, &number, color, cell.key, look.paper);
         } else if layout.koma() >= ALONE {
             painter.circle_filled(middle, 2.5, color);
         }

@@ -12,6 +12,7 @@ use crate::view_state::Shown;
 use crate::why;
 use genga::edits::Forbidden;
 use genga::keys::Key;
+use genga::sheet::Number;
 
 /// Radius of the circle around the number of a genga, in points.
 const CIRCLE: f32 = 8.0;
@@ -139,9 +140,9 @@ impl Strip<'_> {
             self.painter.vline(self.x, begin.min(end)..=end, Stroke::new(width, color));
             self.painter.hline(self.x - 3.0..=self.x + 3.0, end, Stroke::new(width, color));
         }
-        match cell.genga {
+        match cell.genga_number() {
             Some(number) if self.paper.row >= READABLE => {
-                badge(self.painter, middle, number, color, cell.key, look.paper);
+                badge(self.painter, middle, &number, color, cell.key, look.paper);
             }
             Some(_) => drop(self.painter.circle_filled(middle, circle.max(2.5), color)),
             None => drop(self.painter.circle_filled(middle, 2.6_f32.min(circle), color)),
@@ -185,7 +186,7 @@ impl Strip<'_> {
 pub(crate) fn badge(
     painter: &Painter,
     middle: Pos2,
-    number: usize,
+    number: &Number,
     color: Color32,
     key: Option<&Key>,
     paper: Color32,
@@ -193,6 +194,11 @@ pub(crate) fn badge(
     let is_set = key.is_some_and(|key| key.origin.is_set());
     let (fill, ink) = if is_set { (color, paper) } else { (paper, color) };
     painter.circle(middle, CIRCLE, fill, Stroke::new(1.6, color));
-    let size = if number < 100 { 10.5 } else { 8.5 };
+    let number = number.to_string();
+    let size = match number.len() {
+        ..3 => 10.5,
+        3 => 8.5,
+        _ => 7.0,
+    };
     painter.text(middle, Align2::CENTER_CENTER, number, FontId::proportional(size), ink);
 }

@@ -15,10 +15,11 @@ use crate::clip::Part;
 use crate::failure::Failure;
 use crate::folder::Folder;
 use crate::format_args::{FormatArgs, Formats, Overwrites};
-use crate::numbers::Numbering;
+use crate::numbers::{self, Numbering};
 use crate::results::{OWN, Outcome, Results};
 use crate::{files, paths};
 use genga::error::Error;
+use genga::sheet::Sheet;
 use genga_files::{ClipMark, Run};
 use genga_studio::{Export, Exported, Host, Opened, Pictures, Playing, Waveform};
 
@@ -96,6 +97,15 @@ impl Host for Disk {
     ) -> Result<Exported, String> {
         let written = self.mark(export.clip).and_then(|mark| written(folder, export, mark, tell));
         written.map(Exported::from).map_err(said)
+    }
+
+    fn put_sample(&self, name: &str, text: &str) -> Result<PathBuf, String> {
+        put(&home().join("genga"), name, text).map_err(said)
+    }
+
+    fn sheet_in(&self, folder: &Path, clip: &Path) -> Option<Sheet> {
+        let mark = self.mark(clip).ok()?;
+        numbers::before(&Folder::look(folder, Overwrites::default()), &mark).ok().flatten()
     }
 
     #[cfg(feature = "studio")]
@@ -211,6 +221,31 @@ fn written(
     Ok(files)
 }
 
+/// The person's own folder, where files are found again.
+fn home() -> PathBuf {
+    let name = if cfg!(windows) { "USERPROFILE" } else { "HOME" };
+    let named = std::env::var_os(name).filter(|value| !value.is_empty());
+    named.map_or_else(std::env::temp_dir, PathBuf::from)
+}
+
+/// Puts a file into a folder, unless it is there already. A file of the same name with other contents is refused.
+fn put(folder: &Path, name: &str, text: &str) -> Result<PathBuf, Failure> {
+    let path = folder.join(name);
+    match fs::read(&path) {
+        Ok(bytes) if bytes == text.as_bytes() => {}
+        Ok(_) => {
+            let message =
+                format!("{}: another file has this name; open it, or move it away", path.display());
+            return Err(Failure::CouldNot(message));
+        }
+        Err(_) => {
+            fs::create_dir_all(folder).map_err(|error| Failure::at(folder, error))?;
+            files::write(&path, text.as_bytes())?;
+        }
+    }
+    Ok(path)
+}
+
 fn said(failure: Failure) -> String {
     failure.to_string()
 }
@@ -281,6 +316,19 @@ mod tests {
         let offered = Disk::default().clips_in(place.path());
         let names: Vec<_> = offered.iter().filter_map(|clip| clip.file_name()?.to_str()).collect();
         assert_eq!(names, ["a.bvh", "b.FBX", "c.vmd", "d.glb", "e.amc", "i.vrma"]);
+    }
+
+    #[test]
+    fn the_sample_is_put_once_and_overwrites_nothing() {
+        let place = tempfile::tempdir().unwrap();
+        let folder = place.path().join("genga");
+        let path = put(&folder, "kick.bvh", genga::motion::bvh::KICK).unwrap();
+        assert_eq!(Disk::default().open(&path).unwrap().clip.len(), 92);
+        assert_eq!(put(&folder, "kick.bvh", genga::motion::bvh::KICK).unwrap(), path);
+        fs::write(&path, "mine").unwrap();
+        let refused = put(&folder, "kick.bvh", genga::motion::bvh::KICK).unwrap_err();
+        assert!(refused.to_string().contains("another file has this name"), "{refused}");
+        assert_eq!(fs::read_to_string(&path).unwrap(), "mine");
     }
 
     #[test]
