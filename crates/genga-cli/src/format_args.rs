@@ -80,11 +80,6 @@ pub(super) struct Overwrites<'a> {
 }
 
 impl Overwrites<'_> {
-    /// Whether pictures are named.
-    pub(super) fn has_any(&self) -> bool {
-        !self.pictures.is_empty()
-    }
-
     /// Whether the user named this picture of a results folder, or a folder above it.
     pub(super) fn has(&self, folder: &Path, picture: &str) -> bool {
         self.pictures.iter().any(|name| is_named(name, folder, picture))

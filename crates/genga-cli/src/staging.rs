@@ -74,6 +74,19 @@ impl Staging {
     pub(super) fn place(&self, name: &str) -> PathBuf {
         self.path.join(NEW).join(name)
     }
+
+    /// Moves staged files into their places in a folder, and removes those in `go`: all of them or none.
+    pub(super) fn exchange(
+        &self,
+        folder: &Path,
+        come: Vec<String>,
+        go: Vec<String>,
+    ) -> Result<(), Error> {
+        Order { come, go }.begin(&self.path, folder)?;
+        // Carried out; the next run must not take it for unfinished.
+        let order = self.path.join(ORDER);
+        fs::remove_file(&order).map_err(|source| io_error(&order, source))
+    }
 }
 
 impl Drop for Staging {

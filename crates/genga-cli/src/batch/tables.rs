@@ -24,6 +24,9 @@ pub(crate) struct Count {
     /// The first clips of which a format is not made, with the reasons, one a line.
     pub(crate) lacking: Vec<String>,
     pub(crate) lacks: usize,
+    /// The first clips with files that a person changed, one a line.
+    pub(crate) kept: Vec<String>,
+    pub(crate) keeps: usize,
 }
 
 /// Most failures listed in full.
@@ -116,6 +119,9 @@ impl Count {
 
     fn add(&mut self, line: &Line) {
         let message = &line.row.message;
+        if let Some(files) = line.row.kept() {
+            name(&mut self.kept, &mut self.keeps, format!("{}: {files}", line.clip));
+        }
         if line.row.is_done() {
             self.done += 1;
             if line.row.lacks_formats() {

@@ -13,6 +13,7 @@ use super::super::console::{Words, is_loss};
 use super::super::failure::Failure;
 use super::super::format_args::Formats;
 use super::super::plan::{Plan, PlanArgs};
+use super::super::staging::Staging;
 use super::super::{corrections, files, paths, stop};
 use super::list::Item;
 use super::pack::Parcel;
@@ -135,16 +136,17 @@ impl<'a> Begun<'a> {
         (&self.file, self.asked.as_ref().map_or("", |(_, digest)| digest))
     }
 
-    /// Draws the clip, and writes its files into a folder of its own or into a parcel. A clip that fails still becomes
+    /// Draws the clip, and writes its files to the staging or into a parcel. A clip that fails still becomes
     /// a row; only a write error stops the batch.
     pub(crate) fn finish(
         self,
         formats: &Formats,
-        ready: &Path,
+        staging: &Staging,
         mut parcel: Option<&mut Parcel>,
     ) -> Result<Line, Failure> {
         let Self { at, item, file, asked } = self;
         let digest = asked.as_ref().map(|(_, digest)| digest.clone()).unwrap_or_default();
+        let ready = |file: &str| staging.place(&place::staged(&item.name, file));
         let (mut warnings, mut is_unwritten) = (Vec::new(), false);
         let drawn = asked.and_then(|(own, digest)| {
             let put = &mut |name: &str, bytes: &[u8], of: &str| {
@@ -152,7 +154,7 @@ impl<'a> Begun<'a> {
                 Some(parcel) => parcel
                     .add(&item.name, name, of, bytes)
                     .map_err(|source| Error::Io { path: item.path.clone(), source }),
-                None => write(&ready.join(name), bytes).inspect_err(|error| {
+                None => write(&ready(name), bytes).inspect_err(|error| {
                     is_unwritten =
                         !matches!(error, Error::Io { source, .. } if place::is_too_long(source));
                 }),
@@ -184,7 +186,7 @@ impl<'a> Begun<'a> {
             // A write error is the fault of the place, not of the clip.
             Err(failure) if is_unwritten => return Err(failure),
             Err(failure) => {
-                let _ = fs::remove_dir_all(ready);
+                let _ = fs::remove_dir_all(ready(""));
                 line.row = Row::failed(failure.to_string(), warnings);
             }
         }
