@@ -139,3 +139,13 @@ fn an_edited_file_that_is_no_longer_asked_for_stays() {
         assert!(!place.path("out/clips/pitch.bvh/sheet.json").exists());
     }
 }
+
+#[test]
+fn force_writes_over_an_edited_sheet_with_the_same_settings_too() {
+    let place = Place::new();
+    place.done(BATCH);
+    let before = results(&place, "out");
+    fs::write(place.path(SHEET), "mine").unwrap();
+    place.done(&format!("{BATCH} --force"));
+    assert!(results(&place, "out") == before);
+}

@@ -302,6 +302,13 @@ impl Formats {
         paths::spare(&[("sheet", sheet)], &target)
     }
 
+    /// Text that is the same for formats that write the same files.
+    pub(super) fn fingerprint(&self) -> String {
+        let Self { formats, named, settings, .. } = self;
+        let names: Vec<&str> = formats.iter().map(|format| format.name).collect();
+        format!("{names:?} {named:?} {settings:?}")
+    }
+
     /// Encodes a table as the settings of tables say.
     pub(super) fn table(&self, table: String) -> Vec<u8> {
         self.settings.csv.encode(table)

@@ -26,6 +26,9 @@ pub(crate) struct Header {
     genga: String,
     /// Digest of the names of all clips.
     pub(crate) list: String,
+    /// Digest of the options for all clips.
+    #[serde(default)]
+    asked: String,
     /// Number of clips in all parts together.
     pub(crate) clips: usize,
     pub(crate) part: usize,
@@ -33,9 +36,17 @@ pub(crate) struct Header {
 }
 
 impl Header {
-    pub(crate) fn new(list: String, clips: usize, shard: Shard) -> Self {
+    pub(crate) fn new(list: String, asked: String, clips: usize, shard: Shard) -> Self {
         let genga = env!("CARGO_PKG_VERSION").into();
-        Self { schema: SCHEMA.into(), genga, list, clips, part: shard.index, parts: shard.count }
+        Self {
+            schema: SCHEMA.into(),
+            genga,
+            list,
+            asked,
+            clips,
+            part: shard.index,
+            parts: shard.count,
+        }
     }
 
     /// Whether a line is the header of a journal.
@@ -243,9 +254,17 @@ pub(crate) fn check_parts(journals: &[Journal]) -> Result<(), Failure> {
             return wrongly(format!("part {part} of {parts} is there twice: {both}; name it once"));
         }
     }
-    match (1..=parts).find(|part| !there.contains_key(part)) {
-        Some(part) => wrongly(format!(
+    if let Some(part) = (1..=parts).find(|part| !there.contains_key(part)) {
+        return wrongly(format!(
             "part {part} of {parts} is missing: genga batch … --shard {part}/{parts}"
+        ));
+    }
+    let first = &first.header;
+    match journals.iter().find(|journal| journal.header.asked != first.asked) {
+        Some(Journal { header, .. }) => wrongly(format!(
+            "part {} of {parts} was done with other settings than part {}, or by another version of genga; do one of them \
+             again",
+            header.part, first.part
         )),
         None => Ok(()),
     }

@@ -30,7 +30,8 @@ pub(crate) struct Asked<'a> {
     formats: &'a Formats,
     recipe: Recipe,
     edits: Edits,
-    digest: String,
+    /// Digest of them.
+    pub(crate) digest: String,
 }
 
 /// The options of one clip.
@@ -56,7 +57,7 @@ impl<'a> Asked<'a> {
         }
         plan = with(plan, &item.own)?;
         let Plan { recipe, edits, .. } = Plan::from_args(&plan)?;
-        let digest = digest(&plan.for_clip(Path::new("")), self.formats, &recipe, &edits)?;
+        let digest = digest(&plan, self.formats, &recipe, &edits)?;
         Ok((OfOne { plan, recipe, edits }, digest))
     }
 }
@@ -81,18 +82,15 @@ fn first_line(text: &str) -> String {
     line.trim_start_matches("error: ").to_owned()
 }
 
-/// Returns a digest of everything besides the motion that a result depends on.
+/// Returns a digest of everything besides the motion that a result depends on, however its files are called.
 fn digest(
     plan: &PlanArgs,
     formats: &Formats,
     recipe: &Recipe,
     edits: &Edits,
 ) -> Result<String, Failure> {
-    let mut text =
-        format!("{}\n{plan:?}\n{formats:?}\n{}", env!("CARGO_PKG_VERSION"), recipe.write(edits));
-    for path in plan.files() {
-        text += &Manifest::digest(&files::read(path)?);
-    }
+    let (genga, recipe) = (env!("CARGO_PKG_VERSION"), recipe.write(edits));
+    let text = format!("{genga}\n{}\n{}\n{recipe}", plan.fingerprint()?, formats.fingerprint());
     Ok(Manifest::digest(text.as_bytes()))
 }
 

@@ -166,7 +166,7 @@ impl<'a> Batch<'a> {
         let shard = args.shard.unwrap_or_default();
         let list = Manifest::digest(names.join("\n").as_bytes());
         let staging = Staging::within(&args.out).map_err(|error| Failure::at(&args.out, error))?;
-        let header = Header::new(list, items.len(), shard);
+        let header = Header::new(list, asked.digest.clone(), items.len(), shard);
         let journal = Journal::open(&args.out, header, &names)?;
         let pack = args
             .pack
