@@ -80,7 +80,7 @@ pub(super) struct BatchArgs {
 enum Progress {
     /// A bar on a terminal.
     Bar,
-    /// One JSON object per clip.
+    /// One JSON object per clip: clip, status, message, and done, failed, of: how many.
     Json,
     /// Open Job Description messages, for render farms.
     Openjd,
@@ -294,25 +294,29 @@ impl<'a> Batch<'a> {
 
     fn tell(&self, at: usize, row: &Row, bar: Option<&Bar>) -> Result<(), Failure> {
         let mut state = self.state();
-        state.done += 1;
+        state.done += usize::from(row.is_done());
         state.failed += usize::from(!row.is_done());
         let (done, failed, of) = (state.done, state.failed, self.own.len());
+        let finished = done + failed;
         if let Some(bar) = bar {
             bar.weigh(
                 self.items[at].size + LEAST,
-                format!("{done} of {of} clips, {failed} failed"),
+                format!("{finished} of {of} clips, {failed} failed"),
             );
         }
         let line = match self.progress {
             Progress::Bar | Progress::None => return Ok(()),
             Progress::Json => {
-                let clip = &self.items[at].name;
-                serde_json::json!({"clip": clip, "is_done": row.is_done(), "done": done, "failed": failed, "of": of}).to_string()
+                let (clip, status, message) = (&self.items[at].name, &row.status, row.said());
+                serde_json::json!({
+                    "clip": clip, "status": status, "message": message, "done": done, "failed": failed, "of": of
+                })
+                .to_string()
             }
             Progress::Openjd => {
-                let share = 100.0 * done as f64 / of as f64;
+                let share = 100.0 * finished as f64 / of as f64;
                 format!(
-                    "openjd_progress: {share:.1}\nopenjd_status: {done} of {of} clips, {failed} failed"
+                    "openjd_progress: {share:.1}\nopenjd_status: {finished} of {of} clips, {failed} failed"
                 )
             }
         };
