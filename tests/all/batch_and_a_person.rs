@@ -149,3 +149,31 @@ fn force_writes_over_an_edited_sheet_with_the_same_settings_too() {
     place.done(&format!("{BATCH} --force"));
     assert!(results(&place, "out") == before);
 }
+
+#[test]
+fn a_table_that_no_batch_wrote_is_protected() {
+    let place = Place::new();
+    place.done("run data/kick.bvh --out out");
+    let keys = read(&place, "out/keys.csv");
+    let said = place.refused(2, BATCH);
+    assert!(said.contains("out/keys.csv: this table is not as a batch wrote it"), "{said}");
+    assert_eq!(read(&place, "out/keys.csv"), keys);
+    place.done(&format!("{BATCH} --force"));
+    for table in ["keys.csv", "times.csv", "summary.csv"] {
+        let path = place.path("out").join(table);
+        let (before, at) = (fs::read(&path).unwrap(), format!("out/{table}: "));
+        fs::write(&path, "my own,table\n1,2\n").unwrap();
+        for args in [BATCH, "batch --join out --out out"] {
+            let said = place.refused(2, args);
+            assert!(said.contains(&at), "{args}: {said}");
+        }
+        fs::write(&path, before).unwrap();
+        place.done(BATCH);
+    }
+    // A batch whose clips all failed has no keys.
+    fs::write(place.path("bad.bvh"), "no motion").unwrap();
+    for _ in 0..2 {
+        place.refused(1, "batch bad.bvh --out bad");
+    }
+    assert_eq!(read(&place, "bad/keys.csv"), "");
+}

@@ -280,13 +280,34 @@ fn sealed(line: &Line) -> String {
     format!("{body}{SEAL}{}\"}}\n", Manifest::digest(body.as_bytes()))
 }
 
-/// Decodes a clip's line. Returns `None` unless [`sealed`] wrote exactly this text.
+/// Decodes a clip's line. Returns `None` unless [`sealed`] wrote exactly this text, and for files outside of the clip's
+/// folder.
 fn unsealed(text: &str) -> Option<Line> {
     let (body, digest) = text.trim_end().rsplit_once(SEAL)?;
     let is_ours = digest.strip_suffix("\"}") == Some(&*Manifest::digest(body.as_bytes()));
-    is_ours.then(|| serde_json::from_str(&format!("{body}}}")).ok()).flatten()
+    let line: Line = is_ours.then(|| serde_json::from_str(&format!("{body}}}")).ok()).flatten()?;
+    line.files.keys().all(|name| Manifest::is_inside(name)).then_some(line)
 }
 
 fn encoded(data: &impl Serialize) -> String {
     serde_json::to_string(data).expect("plain data") + "\n"
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_line_with_files_outside_of_the_clips_folder_is_not_believed() {
+        for (file, is_believed) in
+            [("images/A_0001.png", true), ("../../mine", false), ("/mine", false)]
+        {
+            let line = serde_json::json!({
+                "at": 0, "clip": "kick.bvh", "file": "", "asked": "", "keys": "", "ms": [0.0, 0.0, 0.0],
+                "row": {"status": "done", "message": "", "warnings": []}, "files": {file: "0"},
+            });
+            let line: Line = serde_json::from_value(line).unwrap();
+            assert_eq!(unsealed(&sealed(&line)).is_some(), is_believed, "{file}");
+        }
+    }
 }

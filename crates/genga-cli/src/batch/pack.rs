@@ -90,7 +90,7 @@ impl Pack {
     pub(crate) fn open(folder: &Path, header: &Header, is_forced: bool) -> Result<Self, Failure> {
         let mut pack = Self::read(folder, header)?;
         if pack.is_foreign() && !is_forced {
-            return Err(foreign(&pack.archive));
+            return Err(foreign(&pack.archive, "archive"));
         }
         let end = pack.files[SPOOL].take().map_or(0, |(_, end)| end);
         let open = || OpenOptions::new().read(true).append(true).create(true).open(&pack.spool);

@@ -156,11 +156,11 @@ pub(super) fn too_long(path: &Path) -> String {
     format!("{name}: the name is too long for the file system; give the clip a shorter one")
 }
 
-/// The failure for an archive that no batch wrote and that would be overwritten.
-pub(super) fn foreign(path: &Path) -> Failure {
+/// The failure for an archive or a table that no batch wrote and that would be overwritten.
+pub(super) fn foreign(path: &Path, what: &str) -> Failure {
     let path = path.display();
     Failure::AskedWrongly(format!(
-        "{path}: this archive is not as a batch wrote it, and would be lost; move it, write elsewhere with --out, or write \
+        "{path}: this {what} is not as a batch wrote it, and would be lost; move it, write elsewhere with --out, or write \
          over it with --force"
     ))
 }

@@ -99,11 +99,14 @@ pub(super) fn run(args: &BatchArgs, words: &Words) -> Result<(), Failure> {
     if !args.list {
         fs::create_dir_all(&args.out).map_err(|error| Failure::at(&args.out, error))?;
     }
-    if !args.join.is_empty() {
-        return join(args, words);
-    }
     if args.list {
         return files::to_stdout(&list::written(&clips(args, words)?));
+    }
+    if args.shard.is_none() && !args.formats.over().is_forced {
+        tables::check(&args.out)?;
+    }
+    if !args.join.is_empty() {
+        return join(args, words);
     }
     let clip = ClipArgs { path: PathBuf::new(), part: args.part.clone() };
     let bones = clip.part.reading().bones()?;
