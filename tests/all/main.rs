@@ -11,8 +11,10 @@ mod stage; // makes a stage with a camera, a sword and a prop
 mod acting; // a nod, a gaze and a fist have keys
 mod actions; // a long take as its actions
 mod batch; // many clips at once
+mod batch_and_a_person; // what a person puts or changes in the folders of a batch
 mod batch_in_trouble; // lists of other systems, full disks, lost clips, two batches at once
 mod batch_packed; // one archive instead of folders
+mod batch_settings; // which settings make a clip be done again
 mod bodies; // parts of a rig besides the body change no key
 mod camera; // movement as seen by a camera
 mod camera_work; // the CAMERA column, and what stands beside the body

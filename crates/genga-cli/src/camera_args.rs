@@ -44,6 +44,15 @@ pub(super) fn file(args: &SeenArgs) -> Option<&Path> {
     args.seen_from.as_deref().and_then(file_and_name).map(|(file, _)| Path::new(file))
 }
 
+/// Text that is the same for the same camera, wherever its file lies.
+pub(super) fn fingerprint(args: &SeenArgs) -> Result<Option<String>, Failure> {
+    let of = |text: &str| match file_and_name(text) {
+        Some((file, name)) => Ok(format!("{} {name:?}", files::digest(Path::new(file))?)),
+        None => Ok(text.to_owned()),
+    };
+    args.seen_from.as_deref().map(of).transpose()
+}
+
 /// Parses a word or a place.
 fn word(text: &str) -> Result<SeenFrom, Failure> {
     text.parse().map_err(|error| match error {

@@ -166,6 +166,18 @@ impl Part {
         self.reading.memory.map(|gib| gib * 1024.0 * 1024.0 * 1024.0)
     }
 
+    /// Text that is the same for parts that are read alike: files count by their contents, and memory, which changes no
+    /// result, does not count.
+    pub(super) fn fingerprint(&self) -> Result<String, Failure> {
+        let mut alike = self.clone();
+        let Reading { bones, skeleton, camera_work, memory, .. } = &mut alike.reading;
+        for file in [bones, skeleton, camera_work].into_iter().flatten() {
+            *file = files::digest(file)?.into();
+        }
+        *memory = None;
+        Ok(format!("{alike:?}"))
+    }
+
     /// The memory budget of work on this clip.
     pub(super) fn budget(&self) -> Budget {
         self.reading.memory.map_or(Budget::default(), Budget::gib)

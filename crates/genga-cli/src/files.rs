@@ -14,6 +14,7 @@ use super::stop;
 use genga::error::Error;
 use genga::motion::StreamLimit;
 use genga::sanitize::shown_lines;
+use genga_files::Manifest;
 
 use serde::Serialize;
 
@@ -32,6 +33,11 @@ pub(super) fn read_up_to(limit: StreamLimit, path: &Path) -> Result<Vec<u8>, Fai
         fs::read(path)
     };
     bytes.map_err(|source| failed(path, source))
+}
+
+/// Returns the digest of a file's bytes.
+pub(super) fn digest(path: &Path) -> Result<String, Failure> {
+    read(path).map(|bytes| Manifest::digest(&bytes))
 }
 
 /// Reads and parses the text file that `--option` names. Errors name the option.

@@ -206,24 +206,31 @@ impl<'a> Folder<'a> {
         )))
     }
 
-    /// Returns the current digest of a file: `None` if the file does not exist, and an empty string, which matches no
-    /// file, if it cannot be read.
     fn digest(&self, name: &str) -> Option<String> {
-        match fs::read(self.path.join(name)) {
-            Ok(bytes) => Some(Manifest::digest(&bytes)),
-            Err(error) if error.kind() == ErrorKind::NotFound => None,
-            Err(_) => Some(String::new()),
-        }
+        digest(self.path, name)
     }
 
-    /// Whether a folder on the path to the file is a symbolic link.
     fn is_behind_link(&self, name: &str) -> bool {
-        let way = Path::new(name).ancestors().skip(1);
-        way.filter(|part| !part.as_os_str().is_empty())
-            .any(|part| self.path.join(part).is_symlink())
+        is_behind_link(self.path, name)
     }
 
     fn has(&self, name: &str, digest: &str) -> bool {
         self.before.as_ref().is_some_and(|before| before.has(name, digest))
     }
+}
+
+/// Returns the current digest of a file in a folder: `None` if it does not exist, and an empty string, which matches no
+/// file, if it cannot be read.
+pub(super) fn digest(folder: &Path, name: &str) -> Option<String> {
+    match fs::read(folder.join(name)) {
+        Ok(bytes) => Some(Manifest::digest(&bytes)),
+        Err(error) if error.kind() == ErrorKind::NotFound => None,
+        Err(_) => Some(String::new()),
+    }
+}
+
+/// Whether a folder on the path from a folder to a file in it is a symbolic link.
+pub(super) fn is_behind_link(folder: &Path, name: &str) -> bool {
+    let way = Path::new(name).ancestors().skip(1);
+    way.filter(|part| !part.as_os_str().is_empty()).any(|part| folder.join(part).is_symlink())
 }

@@ -84,11 +84,6 @@ pub(super) struct Overwrites<'a> {
 }
 
 impl Overwrites<'_> {
-    /// Whether pictures are named.
-    pub(super) fn has_any(&self) -> bool {
-        !self.pictures.is_empty()
-    }
-
     /// Whether the user named this picture of a results folder, or a folder above it.
     pub(super) fn has(&self, folder: &Path, picture: &str) -> bool {
         self.pictures.iter().any(|name| is_named(name, folder, picture))
@@ -309,6 +304,13 @@ impl Formats {
         }
         let sheet = Some(sheet).filter(|_| self.writes("json"));
         paths::spare(&[("sheet", sheet)], &target)
+    }
+
+    /// Text that is the same for formats that write the same files.
+    pub(super) fn fingerprint(&self) -> String {
+        let Self { formats, named, settings, .. } = self;
+        let names: Vec<&str> = formats.iter().map(|format| format.name).collect();
+        format!("{names:?} {named:?} {settings:?}")
     }
 
     /// Encodes a table as the settings of tables say.

@@ -8,7 +8,7 @@ use super::clip::ClipArgs;
 use super::console::Words;
 use super::corrections::Corrections;
 use super::failure::Failure;
-use super::{camera_args, files, freeze_args, pin_args};
+use super::{camera_args, files, freeze_args, pin_args, sheets};
 use genga::edits::Edits;
 use genga::error::{Error, Warning};
 use genga::motion::Description;
@@ -102,12 +102,15 @@ impl PlanArgs {
         &self.clip.path
     }
 
-    /// Files besides the recipe that affect the sheet.
-    pub(super) fn files(&self) -> impl Iterator<Item = &Path> {
+    /// Text of all options that a sheet depends on besides recipe and corrections. It is the same wherever their files
+    /// lie: a file counts by its contents.
+    pub(super) fn fingerprint(&self) -> Result<String, Failure> {
         let Corrections { freeze, pin_from, seen, .. } = &self.corrections;
-        let sheet = freeze.as_deref().filter(|path| path.is_file());
-        let camera = self.clip.part.reading().camera_work.as_deref();
-        sheet.into_iter().chain(pin_from.as_deref()).chain(camera_args::file(seen)).chain(camera)
+        let digest = |path: Option<&Path>| path.map(files::digest).transpose();
+        let sheet = freeze.as_deref().map(sheets::file_of).transpose()?;
+        let (frozen, marked) = (digest(sheet.as_deref())?, digest(pin_from.as_deref())?);
+        let (seen, part) = (camera_args::fingerprint(seen)?, self.clip.part.fingerprint()?);
+        Ok(format!("{:?}\n{frozen:?} {marked:?} {seen:?}\n{part}", self.targets))
     }
 }
 

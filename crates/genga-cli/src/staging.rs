@@ -74,6 +74,19 @@ impl Staging {
     pub(super) fn place(&self, name: &str) -> PathBuf {
         self.path.join(NEW).join(name)
     }
+
+    /// Moves staged files into their places in a folder, and removes those in `go`: all of them or none.
+    pub(super) fn exchange(
+        &self,
+        folder: &Path,
+        come: Vec<String>,
+        go: Vec<String>,
+    ) -> Result<(), Error> {
+        Order { come, go }.begin(&self.path, folder)?;
+        // Carried out; the next run must not take it for unfinished.
+        let order = self.path.join(ORDER);
+        fs::remove_file(&order).map_err(|source| io_error(&order, source))
+    }
 }
 
 impl Drop for Staging {
@@ -92,9 +105,14 @@ pub(super) fn sweep(folder: &Path) {
         if !(name.starts_with(NAME.0) && name.ends_with(NAME.1) && staging.is_dir()) {
             continue;
         }
-        // A living run holds the lock. A staging without a lock file is empty: its run is dead, or will create another.
+        // A living run holds the lock. A staging without a lock file is empty, and its run is dead or will create
+        // another; or it has files, which come after the lock, and is half removed.
         let Ok(lock) = File::open(staging.join(LOCK)) else {
-            let _ = fs::remove_dir(staging);
+            let has_files = [NEW, OLD].iter().any(|inside| staging.join(inside).exists());
+            let _ = match has_files && !staging.join(LOCK).exists() {
+                true => fs::remove_dir_all(staging),
+                false => fs::remove_dir(staging),
+            };
             continue;
         };
         match lock.try_lock() {
@@ -445,11 +463,15 @@ mod tests {
         dead.lock.unlock().unwrap();
         let path = dead.path.clone();
         std::mem::forget(dead);
+        // A third run was killed while it removed its own, the lock first.
+        let half = place.path().join(".genga-half.tmp");
+        fs::create_dir_all(half.join(NEW)).unwrap();
+        fs::write(half.join(NEW).join("half"), "ha").unwrap();
         // Another run was killed before it had its lock.
         fs::create_dir(place.path().join(".genga-dead.tmp")).unwrap();
         let living = Staging::within(place.path()).unwrap();
         sweep(place.path());
-        assert!(!path.exists() && living.path.exists());
+        assert!(!path.exists() && !half.exists() && living.path.exists());
         assert_eq!(names(place.path()).len(), 1);
         drop(living);
         assert_eq!(names(place.path()), [""; 0]);

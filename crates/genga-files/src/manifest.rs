@@ -74,6 +74,12 @@ impl Manifest {
         self.files.get(name).is_some_and(|listed| listed == digest)
     }
 
+    /// Whether a name of a file stays inside its folder, so that the listed file may be deleted.
+    pub fn is_inside(name: &str) -> bool {
+        let is_plain = |part| matches!(part, Component::Normal(_));
+        !name.is_empty() && Path::new(name).components().all(is_plain)
+    }
+
     /// Reads a manifest.
     ///
     /// # Errors
@@ -83,8 +89,7 @@ impl Manifest {
         if read.schema != SCHEMA {
             return Err(failed(format!("the schema is {}, not {SCHEMA}", read.schema)));
         }
-        // Listed files may be deleted, so none may lie outside the folder.
-        match read.files.keys().find(|name| !is_inside(name)) {
+        match read.files.keys().find(|name| !Self::is_inside(name)) {
             Some(outside) => Err(failed(format!("{outside} is not in its folder"))),
             None => Ok(read),
         }
@@ -97,12 +102,6 @@ impl Manifest {
     pub fn write(&self) -> Result<String, Error> {
         Ok(serde_json::to_string_pretty(self).map_err(failed)? + "\n")
     }
-}
-
-/// Whether a name stays inside its folder.
-fn is_inside(name: &str) -> bool {
-    !name.is_empty()
-        && Path::new(name).components().all(|part| matches!(part, Component::Normal(_)))
 }
 
 fn failed(source: impl Into<Box<dyn std::error::Error + Send + Sync>>) -> Error {

@@ -26,6 +26,9 @@ pub(crate) struct Header {
     genga: String,
     /// Digest of the names of all clips.
     pub(crate) list: String,
+    /// Digest of the options for all clips.
+    #[serde(default)]
+    asked: String,
     /// Number of clips in all parts together.
     pub(crate) clips: usize,
     pub(crate) part: usize,
@@ -33,9 +36,17 @@ pub(crate) struct Header {
 }
 
 impl Header {
-    pub(crate) fn new(list: String, clips: usize, shard: Shard) -> Self {
+    pub(crate) fn new(list: String, asked: String, clips: usize, shard: Shard) -> Self {
         let genga = env!("CARGO_PKG_VERSION").into();
-        Self { schema: SCHEMA.into(), genga, list, clips, part: shard.index, parts: shard.count }
+        Self {
+            schema: SCHEMA.into(),
+            genga,
+            list,
+            asked,
+            clips,
+            part: shard.index,
+            parts: shard.count,
+        }
     }
 
     /// Whether a line is the header of a journal.
@@ -243,9 +254,17 @@ pub(crate) fn check_parts(journals: &[Journal]) -> Result<(), Failure> {
             return wrongly(format!("part {part} of {parts} is there twice: {both}; name it once"));
         }
     }
-    match (1..=parts).find(|part| !there.contains_key(part)) {
-        Some(part) => wrongly(format!(
+    if let Some(part) = (1..=parts).find(|part| !there.contains_key(part)) {
+        return wrongly(format!(
             "part {part} of {parts} is missing: genga batch … --shard {part}/{parts}"
+        ));
+    }
+    let first = &first.header;
+    match journals.iter().find(|journal| journal.header.asked != first.asked) {
+        Some(Journal { header, .. }) => wrongly(format!(
+            "part {} of {parts} was done with other settings than part {}, or by another version of genga; do one of them \
+             again",
+            header.part, first.part
         )),
         None => Ok(()),
     }
@@ -261,13 +280,34 @@ fn sealed(line: &Line) -> String {
     format!("{body}{SEAL}{}\"}}\n", Manifest::digest(body.as_bytes()))
 }
 
-/// Decodes a clip's line. Returns `None` unless [`sealed`] wrote exactly this text.
+/// Decodes a clip's line. Returns `None` unless [`sealed`] wrote exactly this text, and for files outside of the clip's
+/// folder.
 fn unsealed(text: &str) -> Option<Line> {
     let (body, digest) = text.trim_end().rsplit_once(SEAL)?;
     let is_ours = digest.strip_suffix("\"}") == Some(&*Manifest::digest(body.as_bytes()));
-    is_ours.then(|| serde_json::from_str(&format!("{body}}}")).ok()).flatten()
+    let line: Line = is_ours.then(|| serde_json::from_str(&format!("{body}}}")).ok()).flatten()?;
+    line.files.keys().all(|name| Manifest::is_inside(name)).then_some(line)
 }
 
 fn encoded(data: &impl Serialize) -> String {
     serde_json::to_string(data).expect("plain data") + "\n"
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_line_with_files_outside_of_the_clips_folder_is_not_believed() {
+        for (file, is_believed) in
+            [("images/A_0001.png", true), ("../../mine", false), ("/mine", false)]
+        {
+            let line = serde_json::json!({
+                "at": 0, "clip": "kick.bvh", "file": "", "asked": "", "keys": "", "ms": [0.0, 0.0, 0.0],
+                "row": {"status": "done", "message": "", "warnings": []}, "files": {file: "0"},
+            });
+            let line: Line = serde_json::from_value(line).unwrap();
+            assert_eq!(unsealed(&sealed(&line)).is_some(), is_believed, "{file}");
+        }
+    }
 }

@@ -1,16 +1,15 @@
-//! Moves the folder of a clip into its place: as a whole, and never over a person's changes.
+//! Moves the files of a clip into its folder: all together, never over a person's changes, and beside a person's files.
 
 use std::collections::BTreeMap;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use walkdir::WalkDir;
-
 use super::super::failure::Failure;
+use super::super::folder::{digest, is_behind_link};
 use super::super::format_args::Overwrites;
 use super::super::paths;
-use genga_files::Manifest;
+use super::super::staging::Staging;
 
 /// Folder that holds a folder per clip.
 pub(super) const CLIPS: &str = "clips";
@@ -31,18 +30,31 @@ impl Places<'_> {
         self.out.join(CLIPS).join(name)
     }
 
-    /// Whether all files of a clip are there.
-    pub(crate) fn has(&self, name: &str, files: &Files) -> bool {
+    /// Names of a clip's files that are not as a batch wrote them; `None` if one is missing.
+    pub(crate) fn changed(&self, name: &str, files: &Files) -> Option<Vec<String>> {
         let folder = self.clip_folder(name);
-        files.keys().all(|file| folder.join(file).is_file())
+        let mut changed = Vec::new();
+        for (file, written) in files {
+            if digest(&folder, file)? != *written {
+                changed.push(file.clone());
+            }
+        }
+        Some(changed)
     }
 
-    /// Moves a finished folder to the place of the earlier batch's folder, which goes to `old`; painted pictures stay.
-    /// Does nothing if there are no files. Returns the names of the pictures that stay.
+    /// Whether the user asks to write over one of these files of a clip, of which some are changed.
+    pub(crate) fn writes_over(&self, name: &str, files: &Files, changed: &[String]) -> bool {
+        let folder = self.clip_folder(name);
+        files.keys().any(|file| self.over.has(&folder, file))
+            || self.over.is_forced && changed.iter().any(|file| !is_picture(file))
+    }
+
+    /// Moves the staged files of a clip into its folder, and removes the others that the earlier batch wrote. Returns
+    /// the names of files that stay because a person changed them. All else in the folder is left alone.
     pub(crate) fn put(
         &self,
         name: &str,
-        (ready, old): (&Path, &Path),
+        staging: &Staging,
         come: &Files,
         before: &Files,
     ) -> Result<Vec<String>, Failure> {
@@ -52,45 +64,85 @@ impl Places<'_> {
             true => Failure::AskedWrongly(too_long(&place)),
             false => Failure::at(&place, error),
         };
-        let mut painted = Vec::new();
         if place.exists() {
-            painted = self.spare(&place, come, before)?;
-            painted
-                .iter()
-                .try_for_each(|file| copy(&place.join(file), &ready.join(file)))
-                .and_then(|()| fs::rename(&place, old))
-                .map_err(failed)?;
+            let kept = self.kept(&place, come, before)?;
+            let stays = |file: &&String| kept.contains(file);
+            let is_left = |file: &&String| come.contains_key(*file) || is_behind_link(&place, file);
+            let come = come.keys().filter(|file| !stays(file));
+            let go = before.keys().filter(|file| !stays(file) && !is_left(file));
+            let staged = |file: &String| staged(name, file);
+            staging.exchange(self.out, come.map(staged).collect(), go.map(staged).collect())?;
+            return Ok(kept);
         }
-        if come.is_empty() && painted.is_empty() {
-            return Ok(painted);
+        if !come.is_empty() {
+            place.parent().map_or(Ok(()), fs::create_dir_all).map_err(failed)?;
+            fs::rename(staging.place(&staged(name, "")), &place).map_err(failed)?;
         }
-        place.parent().map_or(Ok(()), fs::create_dir_all).map_err(failed)?;
-        fs::rename(ready, &place).map_err(failed).map(|()| painted)
+        Ok(vec![])
     }
 
-    /// Refuses a folder with a file that neither the previous batch nor this one wrote. Returns the names of such
-    /// pictures.
-    fn spare(&self, place: &Path, come: &Files, before: &Files) -> Result<Vec<String>, Failure> {
-        let mut painted = Vec::new();
-        for entry in
-            WalkDir::new(place).into_iter().flatten().filter(|entry| entry.file_type().is_file())
-        {
-            let path = entry.path();
-            let name =
-                path.strip_prefix(place).unwrap_or(path).to_string_lossy().replace('\\', "/");
-            let digest = fs::read(path).map(|bytes| Manifest::digest(&bytes)).unwrap_or_default();
-            let is_ours = |files: &Files| files.get(&name) == Some(&digest);
-            if is_ours(come) || is_ours(before) || self.over.has(place, &name) {
-                continue;
-            }
-            match paths::is_picture(path) {
-                true => painted.push(name),
-                false if self.over.is_forced => {}
-                false => return Err(foreign(path, "file")),
+    /// Names of files that a person changed and that stay: pictures, files that do not come now, and files that would
+    /// come as they came before. Refuses any other that would be lost.
+    fn kept(&self, place: &Path, come: &Files, before: &Files) -> Result<Vec<String>, Failure> {
+        if let Some(path) = come.keys().find_map(|file| in_the_way(place, file)) {
+            return Err(Failure::AskedWrongly(format!(
+                "{}: is in the way of a file or a folder of that name; move it",
+                path.display()
+            )));
+        }
+        let (mut kept, mut lost) = (Vec::new(), Vec::new());
+        let others = before.keys().filter(|file| !come.contains_key(*file));
+        for file in come.keys().chain(others) {
+            let Some(there) = digest(place, file) else { continue };
+            let (old, new) = (before.get(file), come.get(file));
+            let is_ours = [old, new].into_iter().flatten().any(|written| *written == there);
+            let is_over = new.is_some()
+                && (self.over.has(place, file) || self.over.is_forced && !is_picture(file));
+            match is_ours || is_over {
+                true => {}
+                false if is_picture(file) || new.is_none() || old == new => kept.push(file.clone()),
+                false => lost.push(place.join(file).display().to_string()),
             }
         }
-        Ok(painted)
+        if lost.is_empty() { Ok(kept) } else { Err(would_be_lost(&lost)) }
     }
+}
+
+/// Path of a clip's file in the output folder, which is also that in the staging.
+pub(super) fn staged(clip: &str, file: &str) -> String {
+    format!("{CLIPS}/{clip}/{file}")
+}
+
+/// Whether a file is a picture, on which a person may paint.
+pub(super) fn is_picture(file: &str) -> bool {
+    paths::is_picture(Path::new(file))
+}
+
+/// A folder at the place of a file, or a file at that of one of its folders.
+fn in_the_way(place: &Path, file: &str) -> Option<PathBuf> {
+    let path = place.join(file);
+    if path.is_dir() {
+        return Some(path);
+    }
+    let above = path.ancestors().skip(1).take_while(|above| above.starts_with(place));
+    above.filter(|above| above.is_file()).map(Path::to_owned).last()
+}
+
+/// The failure of a clip with files that are not as a batch wrote them, and that its results would replace.
+fn would_be_lost(files: &[String]) -> Failure {
+    let more = match &files[1..] {
+        [] => String::new(),
+        others => format!(" (nor {})", others.join(" ")),
+    };
+    // A comma separates names, so none can have one.
+    let way = match files.iter().any(|file| file.contains(',')) {
+        true => String::new(),
+        false => format!(", or write over it with --overwrite {}", files.join(",")),
+    };
+    Failure::AskedWrongly(format!(
+        "{}: this file is not as a batch wrote it{more}, and would be lost; move it{way}",
+        files[0]
+    ))
 }
 
 /// Whether the file system refuses a name, usually one of more than 255 bytes.
@@ -104,13 +156,7 @@ pub(super) fn too_long(path: &Path) -> String {
     format!("{name}: the name is too long for the file system; give the clip a shorter one")
 }
 
-/// Copies a file, with the folders that it needs.
-fn copy(from: &Path, to: &Path) -> io::Result<()> {
-    to.parent().map_or(Ok(()), fs::create_dir_all)?;
-    fs::copy(from, to).map(drop)
-}
-
-/// The failure for something that no batch wrote and that would be overwritten.
+/// The failure for an archive or a table that no batch wrote and that would be overwritten.
 pub(super) fn foreign(path: &Path, what: &str) -> Failure {
     let path = path.display();
     Failure::AskedWrongly(format!(

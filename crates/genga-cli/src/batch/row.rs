@@ -1,9 +1,11 @@
 //! The summary of a clip in one row.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use serde::{Deserialize, Serialize};
 
+use super::super::format_args::shortened;
+use super::place::is_picture;
 use genga_files::Report;
 
 /// A row of `summary.csv`. For a failed clip most of it is empty.
@@ -18,6 +20,9 @@ pub(crate) struct Row {
     pub(crate) figures: Option<Figures>,
     /// Codes of the reader's warnings, each once.
     pub(crate) warnings: Vec<String>,
+    /// Names of files that a person changed, and which stay.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(crate) kept: Vec<String>,
 }
 
 /// Figures of a clip that is done.
@@ -35,6 +40,15 @@ pub(crate) struct Figures {
     motion: String,
     recipe: String,
 }
+
+/// Warning of a clip whose folder has painted pictures, which stay.
+const PAINTED: &str = "W_PAINTED";
+
+/// Warning of a clip whose folder has other files that a person changed, which stay.
+const EDITED: &str = "W_EDITED";
+
+/// Begins the list of files that stay.
+pub(crate) const KEPT: &str = "kept, as changed by a person: ";
 
 /// Status of a clip that is done.
 const DONE: &str = "done";
@@ -79,12 +93,12 @@ impl Row {
             motion,
             recipe,
         };
-        Self { status: DONE.into(), message: String::new(), figures: Some(figures), warnings }
+        Self { status: DONE.into(), figures: Some(figures), warnings, ..Self::default() }
     }
 
     /// Builds the row of a failed clip.
     pub(crate) fn failed(message: String, warnings: Vec<String>) -> Self {
-        Self { status: "failed".into(), message, figures: None, warnings }
+        Self { status: "failed".into(), message, warnings, ..Self::default() }
     }
 
     pub(crate) fn is_done(&self) -> bool {
@@ -94,6 +108,26 @@ impl Row {
     /// Whether it is done but for formats that cannot be made of it.
     pub(crate) fn lacks_formats(&self) -> bool {
         self.is_done() && !self.message.is_empty()
+    }
+
+    /// The files that stay, shortened; `None` if there are none.
+    pub(crate) fn kept(&self) -> Option<String> {
+        (!self.kept.is_empty()).then(|| shortened(self.kept.clone()).join(" "))
+    }
+
+    /// The message, and which files stay.
+    pub(crate) fn said(&self) -> String {
+        let message = Some(self.message.clone()).filter(|message| !message.is_empty());
+        let kept = self.kept().map(|files| format!("{KEPT}{files}"));
+        message.into_iter().chain(kept).collect::<Vec<_>>().join("; ")
+    }
+
+    /// The codes of all warnings.
+    fn codes(&self) -> String {
+        let code = |file: &String| if is_picture(file) { PAINTED } else { EDITED };
+        let kept: BTreeSet<&str> = self.kept.iter().map(code).collect();
+        let warnings = self.warnings.iter().map(String::as_str);
+        warnings.chain(kept).collect::<Vec<_>>().join(" ")
     }
 
     /// The cells after the clip's name.
@@ -119,9 +153,9 @@ impl Row {
         });
         let (numbers, motion, recipe) =
             figures.unwrap_or_else(|| (vec![String::new(); 9], String::new(), String::new()));
-        let mut cells = vec![self.status.clone(), self.message.clone()];
+        let mut cells = vec![self.status.clone(), self.said()];
         cells.extend(numbers);
-        cells.extend([self.warnings.join(" "), motion, recipe]);
+        cells.extend([self.codes(), motion, recipe]);
         cells
     }
 }

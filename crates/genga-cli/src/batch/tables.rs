@@ -1,13 +1,14 @@
 //! The tables of all clips: `summary.csv` and `keys.csv`, and apart from them `times.csv`, which differs on every run.
 
 use std::fs::File;
-use std::io::{self, BufWriter};
+use std::io::{self, BufRead, BufReader, BufWriter};
 use std::path::Path;
 
 use super::super::failure::Failure;
 use super::super::staging::Staging;
 use super::super::stop;
 use super::journal::Journal;
+use super::place::foreign;
 use super::row::{Line, Row};
 use genga::sanitize::cell;
 
@@ -24,10 +25,35 @@ pub(crate) struct Count {
     /// The first clips of which a format is not made, with the reasons, one a line.
     pub(crate) lacking: Vec<String>,
     pub(crate) lacks: usize,
+    /// The first clips with files that a person changed, one a line.
+    pub(crate) kept: Vec<String>,
+    pub(crate) keeps: usize,
 }
 
 /// Most failures listed in full.
 pub(crate) const NAMED: usize = 3;
+
+/// Columns of the table of times.
+const TIMES: [&str; 4] = ["clip", "read_ms", "draw_ms", "write_ms"];
+
+/// Refuses to write over a table that has not the columns of a batch's, as that of a run or of a person.
+pub(crate) fn check(out: &Path) -> Result<(), Failure> {
+    let columns = ["clip,cut,".to_owned(), TIMES.join(","), Row::HEADER.join(",")];
+    for (path, columns) in FILES.iter().map(|name| out.join(name)).zip(columns) {
+        let mut line = String::new();
+        let is_read =
+            File::open(&path).is_ok_and(|file| BufReader::new(file).read_line(&mut line).is_ok());
+        // Without a single key the table of keys is empty.
+        let is_ours = match columns.strip_suffix(',') {
+            Some(_) => line.is_empty() || line.starts_with(&columns),
+            None => line.trim_end() == columns,
+        };
+        if path.exists() && !(is_read && is_ours) {
+            return Err(foreign(&path, "table"));
+        }
+    }
+    Ok(())
+}
 
 /// Writes the tables of the named clips, in that order, as far as the journals know them. No table is ever wholly in
 /// memory.
@@ -45,7 +71,7 @@ pub(crate) fn write<'a>(
         [open(FILES[0]).map_err(io)?, open(FILES[1]).map_err(io)?, open(FILES[2]).map_err(io)?];
     let csv = |error: csv::Error| Failure::at(out, error);
     summary.write_record(Row::HEADER).map_err(csv)?;
-    times.write_record(["clip", "read_ms", "draw_ms", "write_ms"]).map_err(csv)?;
+    times.write_record(TIMES).map_err(csv)?;
     let (mut count, mut has_header) = (Count::default(), false);
     for name in names {
         let Some(line) = line(journals, name)? else { continue };
@@ -116,6 +142,9 @@ impl Count {
 
     fn add(&mut self, line: &Line) {
         let message = &line.row.message;
+        if let Some(files) = line.row.kept() {
+            name(&mut self.kept, &mut self.keeps, format!("{}: {files}", line.clip));
+        }
         if line.row.is_done() {
             self.done += 1;
             if line.row.lacks_formats() {

@@ -13,6 +13,7 @@ use super::super::console::{Words, is_loss};
 use super::super::failure::Failure;
 use super::super::format_args::Formats;
 use super::super::plan::{Plan, PlanArgs};
+use super::super::staging::Staging;
 use super::super::{corrections, files, paths, stop};
 use super::list::Item;
 use super::pack::Parcel;
@@ -29,7 +30,8 @@ pub(crate) struct Asked<'a> {
     formats: &'a Formats,
     recipe: Recipe,
     edits: Edits,
-    digest: String,
+    /// Digest of them.
+    pub(crate) digest: String,
 }
 
 /// The options of one clip.
@@ -55,7 +57,7 @@ impl<'a> Asked<'a> {
         }
         plan = with(plan, &item.own)?;
         let Plan { recipe, edits, .. } = Plan::from_args(&plan)?;
-        let digest = digest(&plan.for_clip(Path::new("")), self.formats, &recipe, &edits)?;
+        let digest = digest(&plan, self.formats, &recipe, &edits)?;
         Ok((OfOne { plan, recipe, edits }, digest))
     }
 }
@@ -80,18 +82,15 @@ fn first_line(text: &str) -> String {
     line.trim_start_matches("error: ").to_owned()
 }
 
-/// Returns a digest of everything besides the motion that a result depends on.
+/// Returns a digest of everything besides the motion that a result depends on, however its files are called.
 fn digest(
     plan: &PlanArgs,
     formats: &Formats,
     recipe: &Recipe,
     edits: &Edits,
 ) -> Result<String, Failure> {
-    let mut text =
-        format!("{}\n{plan:?}\n{formats:?}\n{}", env!("CARGO_PKG_VERSION"), recipe.write(edits));
-    for path in plan.files() {
-        text += &Manifest::digest(&files::read(path)?);
-    }
+    let (genga, recipe) = (env!("CARGO_PKG_VERSION"), recipe.write(edits));
+    let text = format!("{genga}\n{}\n{}\n{recipe}", plan.fingerprint()?, formats.fingerprint());
     Ok(Manifest::digest(text.as_bytes()))
 }
 
@@ -135,16 +134,17 @@ impl<'a> Begun<'a> {
         (&self.file, self.asked.as_ref().map_or("", |(_, digest)| digest))
     }
 
-    /// Draws the clip, and writes its files into a folder of its own or into a parcel. A clip that fails still becomes
+    /// Draws the clip, and writes its files to the staging or into a parcel. A clip that fails still becomes
     /// a row; only a write error stops the batch.
     pub(crate) fn finish(
         self,
         formats: &Formats,
-        ready: &Path,
+        staging: &Staging,
         mut parcel: Option<&mut Parcel>,
     ) -> Result<Line, Failure> {
         let Self { at, item, file, asked } = self;
         let digest = asked.as_ref().map(|(_, digest)| digest.clone()).unwrap_or_default();
+        let ready = |file: &str| staging.place(&place::staged(&item.name, file));
         let (mut warnings, mut is_unwritten) = (Vec::new(), false);
         let drawn = asked.and_then(|(own, digest)| {
             let put = &mut |name: &str, bytes: &[u8], of: &str| {
@@ -152,7 +152,7 @@ impl<'a> Begun<'a> {
                 Some(parcel) => parcel
                     .add(&item.name, name, of, bytes)
                     .map_err(|source| Error::Io { path: item.path.clone(), source }),
-                None => write(&ready.join(name), bytes).inspect_err(|error| {
+                None => write(&ready(name), bytes).inspect_err(|error| {
                     is_unwritten =
                         !matches!(error, Error::Io { source, .. } if place::is_too_long(source));
                 }),
@@ -184,7 +184,7 @@ impl<'a> Begun<'a> {
             // A write error is the fault of the place, not of the clip.
             Err(failure) if is_unwritten => return Err(failure),
             Err(failure) => {
-                let _ = fs::remove_dir_all(ready);
+                let _ = fs::remove_dir_all(ready(""));
                 line.row = Row::failed(failure.to_string(), warnings);
             }
         }

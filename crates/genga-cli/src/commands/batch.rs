@@ -1,5 +1,6 @@
 //! `genga batch`: processes many clips, keeps what is finished, and writes tables of all.
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::io::{Write, stdout};
 use std::path::PathBuf;
@@ -12,7 +13,7 @@ use crate::batch::list::{self, Clips, Item};
 use crate::batch::pack::{self, ARCHIVE, Pack, Parcel};
 use crate::batch::place::Places;
 use crate::batch::pool::Pool;
-use crate::batch::row::{Line, Row};
+use crate::batch::row::{KEPT, Line, Row};
 use crate::batch::shard::{Shard, largest_first};
 use crate::batch::tables::{self, Count, NAMED};
 use crate::batch::work::{Asked, Begun};
@@ -79,7 +80,7 @@ pub(super) struct BatchArgs {
 enum Progress {
     /// A bar on a terminal.
     Bar,
-    /// One JSON object per clip.
+    /// One JSON object per clip: clip, status, message, and done, failed, of: how many.
     Json,
     /// Open Job Description messages, for render farms.
     Openjd,
@@ -90,9 +91,6 @@ enum Progress {
 /// Memory for all clips in progress, unless --memory is given.
 const ROOM: f64 = 2.0 * 1024.0 * 1024.0 * 1024.0;
 
-/// Warning in the row of a clip whose folder has painted pictures, which stay.
-const PAINTED: &str = "W_PAINTED";
-
 /// Cost of a clip besides its bytes, in bytes. The progress bar estimates the time left from this and the file size.
 const LEAST: u64 = 1 << 14;
 
@@ -101,11 +99,14 @@ pub(super) fn run(args: &BatchArgs, words: &Words) -> Result<(), Failure> {
     if !args.list {
         fs::create_dir_all(&args.out).map_err(|error| Failure::at(&args.out, error))?;
     }
-    if !args.join.is_empty() {
-        return join(args, words);
-    }
     if args.list {
         return files::to_stdout(&list::written(&clips(args, words)?));
+    }
+    if args.shard.is_none() && !args.formats.over().is_forced {
+        tables::check(&args.out)?;
+    }
+    if !args.join.is_empty() {
+        return join(args, words);
     }
     let clip = ClipArgs { path: PathBuf::new(), part: args.part.clone() };
     let bones = clip.part.reading().bones()?;
@@ -168,7 +169,7 @@ impl<'a> Batch<'a> {
         let shard = args.shard.unwrap_or_default();
         let list = Manifest::digest(names.join("\n").as_bytes());
         let staging = Staging::within(&args.out).map_err(|error| Failure::at(&args.out, error))?;
-        let header = Header::new(list, items.len(), shard);
+        let header = Header::new(list, asked.digest.clone(), items.len(), shard);
         let journal = Journal::open(&args.out, header, &names)?;
         let pack = args
             .pack
@@ -213,7 +214,7 @@ impl<'a> Batch<'a> {
             |at| self.items[at].size,
             is_over,
             |at| {
-                let told = self.one(at).and_then(|is_done| self.tell(at, is_done, bar.as_ref()));
+                let told = self.one(at).and_then(|row| self.tell(at, &row, bar.as_ref()));
                 if let Err(failure) = told {
                     self.state().fault.get_or_insert(failure);
                 }
@@ -222,75 +223,103 @@ impl<'a> Batch<'a> {
         self.state().fault.take().map_or(Ok(()), Err)
     }
 
-    /// Processes a clip unless it is done already. Returns whether it succeeded.
-    fn one(&self, at: usize) -> Result<bool, Failure> {
+    /// Processes a clip unless it is done already. Returns its row.
+    fn one(&self, at: usize) -> Result<Row, Failure> {
         let item = &self.items[at];
         let begun = Begun::new(self.asked, at, item);
-        let (file, asked) = begun.digests();
-        let before = {
-            let state = self.state();
-            let line = state.journal.line(&item.name)?;
-            let has = |line: &Line| match &state.pack {
-                Some(pack) => pack.has(&item.name, &line.files),
-                None => self.places.has(&item.name, &line.files),
-            };
-            let is_there = line.as_ref().is_some_and(has);
-            let is_as_wanted = is_there && !self.places.over.has_any();
-            if is_as_wanted && state.journal.has(&item.name, file, asked) {
-                return Ok(true);
-            }
-            line.map(|line| line.files).unwrap_or_default()
-        };
-        let (ready, old) =
-            (self.staging.place(&format!("{at}")), self.staging.place(&format!("{at}-old")));
+        let before = self.state().journal.line(&item.name)?;
+        if let Some(row) =
+            before.as_ref().map(|line| self.done(&begun, line)).transpose()?.flatten()
+        {
+            return Ok(row);
+        }
+        let before = before.map(|line| line.files).unwrap_or_default();
         let mut parcel = self.is_packed.then(Parcel::default);
-        let mut line = begun.finish(self.formats, &ready, parcel.as_mut())?;
+        let mut line = begun.finish(self.formats, &self.staging, parcel.as_mut())?;
         let mut state = self.state();
         stop::undisturbed(|| {
-            if let (Some(pack), Some(parcel)) = (&mut state.pack, parcel) {
-                let is_done = line.row.is_done();
-                if is_done {
-                    pack.add(parcel)?;
-                }
-                return state.journal.add(line).map(|()| is_done);
+            match (&mut state.pack, parcel) {
+                (Some(pack), Some(parcel)) if line.row.is_done() => pack.add(parcel)?,
+                (Some(_), _) => {}
+                (None, _) => self.put(&mut line, before)?,
             }
-            match self.places.put(&item.name, (&ready, &old), &line.files, &before) {
-                Err(Failure::AskedWrongly(message)) => {
-                    line.row = Row::failed(message, vec![]);
-                    line.files = before;
-                    line.keys.clear();
-                }
-                put => {
-                    let painted = put?;
-                    line.row.warnings.extend((!painted.is_empty()).then(|| PAINTED.into()));
-                }
-            }
-            let is_done = line.row.is_done();
-            state.journal.add(line).map(|()| is_done)
+            let row = line.row.clone();
+            state.journal.add(line).map(|()| row)
         })
     }
 
-    fn tell(&self, at: usize, is_done: bool, bar: Option<&Bar>) -> Result<(), Failure> {
+    /// Returns the row of a clip that is done as it is asked for now, and writes down which of its files a person has
+    /// changed since.
+    fn done(&self, begun: &Begun<'_>, before: &Line) -> Result<Option<Row>, Failure> {
+        let (name, files) = (&before.clip, &before.files);
+        let (file, asked) = begun.digests();
+        let is_packed = {
+            let state = self.state();
+            if !state.journal.has(name, file, asked) {
+                return Ok(None);
+            }
+            state.pack.as_ref().map(|pack| pack.has(name, files))
+        };
+        let changed = match is_packed {
+            Some(is_packed) => is_packed.then(Vec::new),
+            None => self.places.changed(name, files),
+        };
+        let Some(kept) = changed.filter(|changed| !self.places.writes_over(name, files, changed))
+        else {
+            return Ok(None);
+        };
+        let row = Row { kept, ..before.row.clone() };
+        if row != before.row {
+            self.state().journal.add(Line { row: row.clone(), ..before.clone() })?;
+        }
+        Ok(Some(row))
+    }
+
+    /// Moves the files of a clip into its folder. A clip whose files would replace those of a person fails.
+    fn put(&self, line: &mut Line, before: BTreeMap<String, String>) -> Result<(), Failure> {
+        match self.places.put(&line.clip, &self.staging, &line.files, &before) {
+            Err(Failure::AskedWrongly(message)) => {
+                line.row = Row::failed(message, vec![]);
+                line.files = before;
+                line.keys.clear();
+            }
+            put => {
+                line.row.kept = put?;
+                // A file that stays is still known, so that it is not taken for one that no batch wrote.
+                let kept = before.into_iter().filter(|(file, _)| line.row.kept.contains(file));
+                kept.for_each(|(file, digest)| {
+                    line.files.entry(file).or_insert(digest);
+                });
+            }
+        }
+        Ok(())
+    }
+
+    fn tell(&self, at: usize, row: &Row, bar: Option<&Bar>) -> Result<(), Failure> {
         let mut state = self.state();
-        state.done += 1;
-        state.failed += usize::from(!is_done);
+        state.done += usize::from(row.is_done());
+        state.failed += usize::from(!row.is_done());
         let (done, failed, of) = (state.done, state.failed, self.own.len());
+        let finished = done + failed;
         if let Some(bar) = bar {
             bar.weigh(
                 self.items[at].size + LEAST,
-                format!("{done} of {of} clips, {failed} failed"),
+                format!("{finished} of {of} clips, {failed} failed"),
             );
         }
         let line = match self.progress {
             Progress::Bar | Progress::None => return Ok(()),
             Progress::Json => {
-                let clip = &self.items[at].name;
-                serde_json::json!({"clip": clip, "is_done": is_done, "done": done, "failed": failed, "of": of}).to_string()
+                let (clip, status, message) = (&self.items[at].name, &row.status, row.said());
+                serde_json::json!({
+                    "clip": clip, "status": status, "message": message, "done": done, "failed": failed, "of": of
+                })
+                .to_string()
             }
             Progress::Openjd => {
-                let share = 100.0 * done as f64 / of as f64;
+                let share = 100.0 * finished as f64 / of as f64;
                 format!(
-                    "openjd_progress: {share:.1}\nopenjd_status: {done} of {of} clips, {failed} failed"
+                    "openjd_progress: {share:.1}\nopenjd_status: {finished} of {of} clips, {failed} failed"
                 )
             }
         };
@@ -364,7 +393,7 @@ fn join(args: &BatchArgs, words: &Words) -> Result<(), Failure> {
 
 /// Reports the outcome.
 fn end(count: &Count, of: usize, args: &BatchArgs, words: &Words) -> Result<(), Failure> {
-    let Count { done, failed, failures, lacking, lacks } = count;
+    let Count { done, failed, failures, lacking, lacks, kept, keeps } = count;
     let out = args.out.display();
     let tables =
         if args.shard.is_none() { "summary.csv keys.csv times.csv" } else { "next --join" };
@@ -372,9 +401,15 @@ fn end(count: &Count, of: usize, args: &BatchArgs, words: &Words) -> Result<(), 
         "batch       一括       {} of {of} done into {out}: {tables}",
         counted(*done, "clip")
     ));
-    let named = |count: usize, what: &str, clips: &[String]| {
+    let listed = |count: usize, clips: &[String]| {
         let more = if count > NAMED { "; …, all in summary.csv" } else { "" };
-        (count > 0).then(|| format!("{count} of {of} {what}: {}{more}", clips.join("; ")))
+        format!("{}{more}", clips.join("; "))
+    };
+    if *keeps > 0 {
+        words.say(format_args!("note        {KEPT}{}", listed(*keeps, kept)));
+    }
+    let named = |count: usize, what: &str, clips: &[String]| {
+        (count > 0).then(|| format!("{count} of {of} {what}: {}", listed(count, clips)))
     };
     let faults = [named(*failures, "failed", failed), named(*lacks, "lack a format", lacking)];
     let message = faults.into_iter().flatten().collect::<Vec<_>>().join("; ");
