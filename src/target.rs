@@ -163,8 +163,8 @@ impl Search {
 
 fn check(targets: &[Target], recipe: &Recipe) -> Result<(), Error> {
     if let ([first, ..], true) = (targets, recipe.layers != Layers::Body) {
-        let message = "is asked of the whole body as one layer; find its settings with layers = \"body\" first, \
-                       and give them to the layers";
+        let message = "is asked of the whole body as one layer; run without layers first, and then with them and the \
+                       settings that it finds, as in --set keys.min_price=9";
         return Err(Error::setting(first.name(), message));
     }
     for (at, target) in targets.iter().enumerate() {

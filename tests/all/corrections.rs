@@ -74,7 +74,7 @@ fn the_summary_says_what_each_correction_did() {
             "hold 33: stays for 4 koma",
             "pin 42: genga 7 in place of 41",
             "forbid 50: genga 9 moved from 48 to 47",
-            "pin 60: genga 11, found without it too",
+            "pin 60: genga 11, a genga already",
             "move 71:74: genga 12",
         ]
     );

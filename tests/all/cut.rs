@@ -275,6 +275,21 @@ fn columns_go_into_somebody_s_timesheet_and_all_else_of_it_stays() {
 }
 
 #[test]
+fn a_timesheet_that_does_not_hold_the_rate_says_so() {
+    let folder = place("kick.bvh");
+    let folder = folder.path();
+    let said = made(folder, "run kick.bvh --set rate=30 --deliver xdts,tdts,sts,columns --out a");
+    for format in ["xdts", "tdts", "sts"] {
+        let note = format!("{format}: the file does not hold the rate of 30 koma a second");
+        assert!(said.contains(&note), "{format}: {said}");
+    }
+    fs::write(folder.join("c045.xdts"), DIRECTORS).unwrap();
+    let said = made(folder, "deliver a/sheet.json kick.bvh --into c045.xdts --out out");
+    assert!(said.contains("into: the file does not hold the rate of 30 koma a second"), "{said}");
+    assert!(!made(folder, "run kick.bvh --deliver xdts --out b").contains("W_RATE_UNSAID"));
+}
+
+#[test]
 fn what_is_not_understood_of_a_timesheet_is_named() {
     let folder = place("kick.bvh");
     let folder = folder.path();

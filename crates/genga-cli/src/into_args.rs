@@ -60,8 +60,9 @@ impl IntoArgs {
             AsColumn::Cell => PaperColumn::Cell,
         });
         let into = IntoTimesheet { names: self.columns.clone(), replaces: self.replace, column };
-        let PutInto { bytes, notes } =
+        let PutInto { bytes, mut notes } =
             into.put(&files::read(path)?, sheet).map_err(files::fault_of(path))?;
+        notes.extend(xdts::unsaid_rate("into", sheet).map(|note| note.to_string()));
         Ok(Some(Filled { name: paths::file_name(path), bytes, notes }))
     }
 }

@@ -58,7 +58,7 @@ impl Outcomes<'_> {
         let frame = pin.frame;
         let number = self.number(frame)?;
         let instead = match self.lost_near(frame).join(" and ") {
-            _ if self.is_found(frame) => ", found without it too".to_owned(),
+            _ if self.is_found(frame) => ", a genga already".to_owned(),
             none if none.is_empty() => none,
             frames => format!(" in place of {frames}"),
         };

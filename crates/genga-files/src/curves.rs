@@ -114,8 +114,8 @@ impl Curves {
     ) -> Option<Warning> {
         let percent = |share: f64| format!("{:.2} %", 100.0 * share);
         let message = format!(
-            "{format}: {added} keys beside the {genga} genga. With those alone, the curves are up to {} of body height \
-             off the take; curves.error allows {}",
+            "{format}: keys on {keys} frames, {added} beside the {genga} genga. With those alone, the curves are up to {} of \
+             body height off the take; curves.error allows {}, and needs fewer keys if it allows more",
             percent(error_of_genga),
             percent(self.error),
             genga = keys - added,

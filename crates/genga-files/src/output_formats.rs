@@ -140,6 +140,7 @@ pub const FORMATS: &[Format] = &[
         make: |cut, settings, put| {
             put(&cut.file("CUT.tdts"), settings.tdts.write(cut.sheet, cut.name)?.as_bytes())
         },
+        notes: |cut, _| Ok(xdts::unsaid_rate("tdts", cut.sheet).into_iter().collect()),
         ..PLAIN
     },
     Format {

@@ -5,6 +5,8 @@ use encoding_rs::SHIFT_JIS;
 use genga::error::{Error, Warning};
 use genga::sheet::{Layer, Number, Sheet};
 
+use crate::xdts::unsaid_rate;
+
 /// The signature: a length byte, and the name.
 const SIGNATURE: &[u8; 18] = b"\x11ShiraheiTimeSheet";
 /// Zeros after the length field.
@@ -59,7 +61,7 @@ pub(crate) fn notes(sheet: &Sheet) -> Vec<Warning> {
             format!("STS holds whole numbers alone: of {} {}", layer.name, changed.join(", "));
         (!changed.is_empty()).then(|| Warning::new("W_STS_NUMBERS", message))
     };
-    sheet.layers.iter().filter_map(of_layer).collect()
+    unsaid_rate("sts", sheet).into_iter().chain(sheet.layers.iter().filter_map(of_layer)).collect()
 }
 
 /// The number of each drawing, and for one with letters a number behind all that the layer ever had.

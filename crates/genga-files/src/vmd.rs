@@ -569,7 +569,7 @@ fn notes(report: &VmdReport, found: &Found) -> Vec<Warning> {
     if !report.left_out.is_empty() {
         let joints = report.left_out.join(", ");
         let message = format!(
-            "vmd: no bone for {joints}: their motion is not in it (a file of bones says where it belongs)"
+            "vmd: no bone for {joints}: their motion is not in it ([extra] in a file of bones takes it up: --bones)"
         );
         notes.push(Warning::new("W_VMD_LEFT_OUT", message));
     }

@@ -23,6 +23,7 @@ pub use read::{Change, Column, Exchange, Mark, read, read_cells};
 pub use retimed::retimed;
 pub use tdts::Tdts;
 pub use unread::unread;
+pub use write::unsaid_rate;
 pub use write::{Xdts, XdtsPair};
 pub(super) use write::{name as column, notes};
 

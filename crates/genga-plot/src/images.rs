@@ -3,6 +3,7 @@
 #[cfg(feature = "images")]
 mod draw;
 
+#[cfg(feature = "images")]
 pub use draw::ColumnPictures;
 
 use serde::{Deserialize, Serialize};

@@ -59,7 +59,9 @@ pub use flipbook::FlipBook;
 pub use genga::motion::Camera;
 pub use heat::HeatMap;
 pub use hierarchy::SkeletonPlot;
-pub use images::{ColumnPictures, NumberedImages};
+#[cfg(feature = "images")]
+pub use images::ColumnPictures;
+pub use images::NumberedImages;
 pub use onion::OnionSkin;
 pub use pose_row::PoseRow;
 pub use preview::Preview;

@@ -113,7 +113,10 @@ impl BoneMap {
         let known = |rows: &Rows| {
             let unknown = rows.keys().find(|bone| self.model.find(bone.get_ref()).is_none());
             unknown.map_or(Ok(()), |bone| {
-                let message = format!("there is no bone {}; see docs/input.md", bone.get_ref());
+                let message = format!(
+                    "there is no bone {0} to map; [extra.\"{0}\"] adds one (docs/input.md)",
+                    bone.get_ref()
+                );
                 Err(failed(Some(bone.span()), &message))
             })
         };

@@ -61,9 +61,9 @@ impl Passing<'_> {
         let places = track.places.iter().map(|place| place * frames).collect();
         let retimed = self.timeline.retimed(&Track { places, ..track.clone() });
         let mut keys: BTreeMap<Frame, Vec<f64>> = BTreeMap::new();
+        let jumps = retimed.between == Between::Step && track.between == Between::Linear;
         for (key, koma) in retimed.places.iter().enumerate() {
             let frame = self.frame(*koma)?;
-            let jumps = retimed.between == Between::Step && track.between == Between::Linear;
             let before =
                 key.checked_sub(1).filter(|_| jumps).map(|key| retimed.value(key).to_vec());
             let before = keys.insert(frame, retimed.value(key).to_vec()).or(before);
@@ -71,7 +71,8 @@ impl Passing<'_> {
                 keys.entry(earlier).or_insert(before);
             }
         }
-        Ok(keys.into_iter().collect())
+        let keys: Vec<_> = keys.into_iter().collect();
+        Ok(if jumps { bent(keys) } else { keys })
     }
 
     fn frame(&self, koma: f64) -> Result<Frame, Error> {
@@ -132,4 +133,16 @@ fn shifted(camera: &VmdCamera, shift: f64, end: Frame) -> Vec<VmdCameraKey> {
     let inside = keys.partition_point(|key| key.frame < end);
     keys.truncate(inside + 1);
     keys
+}
+
+/// Leaves out keys between two of the same value: a line through both passes there.
+fn bent(keys: Vec<(Frame, Vec<f64>)>) -> Vec<(Frame, Vec<f64>)> {
+    let is_bent = |at: usize| {
+        let same = |other: Option<usize>| {
+            other.and_then(|other| keys.get(other)).is_some_and(|other| other.1 == keys[at].1)
+        };
+        !(same(at.checked_sub(1)) && same(Some(at + 1)))
+    };
+    let places: Vec<usize> = (0..keys.len()).filter(|at| is_bent(*at)).collect();
+    places.into_iter().map(|at| keys[at].clone()).collect()
 }

@@ -78,19 +78,31 @@ impl Xdts {
     }
 }
 
-/// Says if there are numbers that OpenToonz reads only on request.
+/// What a person should know of a sheet's files.
 pub(crate) fn notes(sheet: &Sheet) -> Vec<Warning> {
+    let unsaid = unsaid_rate("xdts", sheet).into_iter();
+    unsaid.chain(long_numbers(sheet)).collect()
+}
+
+/// Says if there are numbers that OpenToonz reads only on request.
+fn long_numbers(sheet: &Sheet) -> Option<Warning> {
     let numbers = sheet.layers.iter().flat_map(Layer::numbers);
     let long = numbers.filter(|number| number.letters().len() > 1).map(|number| number.to_string());
     let long: Vec<String> = long.collect();
-    if long.is_empty() {
-        return vec![];
-    }
     let message = format!(
         "OpenToonz reads {} only if the project's settings of file paths allow more than one letter",
         long.join(" ")
     );
-    vec![Warning::new("W_LONG_NUMBERS", message)]
+    (!long.is_empty()).then(|| Warning::new("W_LONG_NUMBERS", message))
+}
+
+/// Says that a timesheet does not hold the rate of a sheet that is not on 24 koma a second, for which people take it.
+pub fn unsaid_rate(format: &str, sheet: &Sheet) -> Option<Warning> {
+    let rate = sheet.clock.koma_rate;
+    let message = format!(
+        "{format}: the file does not hold the rate of {rate} koma a second, and 24 are usual: set it in the program"
+    );
+    (rate != 24.0).then(|| Warning::new("W_RATE_UNSAID", message))
 }
 
 /// The time table of a sheet: a field per column of the paper, with a track per layer, and a field of dialogue if any.

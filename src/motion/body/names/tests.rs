@@ -94,7 +94,7 @@ sides = [\"li\", \"re\"]
 #[test]
 fn a_wrong_file_is_refused_with_its_place() {
     for (text, begin) in [
-        ("[bones]\n\"左うで\" = \"A\"\n", "bones: 2:1: there is no bone 左うで"),
+        ("[bones]\n\"左うで\" = \"A\"\n", "bones: 2:1: there is no bone 左うで to map"),
         ("[bones]\n\"左腕\" = 3\n", "bones: 2:"),
         ("[bone]\n", "bones: 1:2: unknown field `bone`"),
         ("[[dialect]]\nname = \"a\"\nside = 1\n", "bones: 3:1: unknown field `side`"),

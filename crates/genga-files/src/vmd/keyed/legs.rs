@@ -112,7 +112,7 @@ mod tests {
 
     use super::*;
 
-    /// Turns about an axis of −1 to 1 and by an angle.
+    /// Any turn of a thigh, given by three angles.
     fn turn() -> impl Strategy<Value = DQuat> {
         prop::array::uniform3(-2.0..2.0)
             .prop_map(|[x, y, z]| DQuat::from_euler(glam::EulerRot::XYZ, x, y, z))

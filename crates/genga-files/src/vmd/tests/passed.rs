@@ -162,6 +162,9 @@ fn stepped_faces_stay_and_jump() {
     };
     let share = |frame: f32| Some(frame / 30.0);
     assert_eq!((weight(12), weight(14), weight(15)), (share(12.0), share(12.0), share(15.0)));
+    let own: Vec<f32> =
+        made.motion.faces.iter().filter(|key| key.name.len() == 2).map(|key| key.weight).collect();
+    assert!(own.windows(3).all(|keys| keys[0] != keys[1] || keys[1] != keys[2]), "{own:?}");
     let camera = made.camera.unwrap().keys;
     let x = |frame: u32| camera.iter().rfind(|key| key.frame <= frame).unwrap().values[1];
     assert!(x(13) == x(12) && x(15) > x(12));
