@@ -45,12 +45,14 @@ impl Drawn {
             let name = name.replace('|', "\\|");
             let _ = writeln!(text, "| {name} | {:.2} |", grid.seconds);
         }
+        let axes = [Some(&study.x), study.y.as_ref()].into_iter().flatten();
+        let on_axes: Vec<&str> = axes.map(Axis::name).collect();
         let version = env!("CARGO_PKG_VERSION");
         let _ = write!(text, "\nMade by genga {version}:\n\n```sh\n{}\n```\n", command());
         let _ = write!(
             text,
             "\nThe recipe, where the study does not vary it:\n\n```toml\n{}```\n",
-            settings(&study.recipe)
+            settings(&study.recipe, &on_axes)
         );
         text
     }
@@ -92,10 +94,21 @@ fn varied(axis: &Axis) -> String {
     format!("`{}` ({}{unit}: {})", axis.name(), knob.japanese, axis.values().join(", "))
 }
 
-/// The settings as in a recipe file, without comments.
-fn settings(recipe: &Recipe) -> String {
+/// The settings as in a recipe file, without comments and without those that vary.
+fn settings(recipe: &Recipe, varied: &[&str]) -> String {
     let file = recipe.write(&Edits::default());
-    let lines = file.lines().filter(|line| !line.starts_with('#') && !line.is_empty());
+    let mut section = String::new();
+    let mut is_kept = |line: &&str| {
+        if let Some(own) = line.strip_prefix('[') {
+            // Settings for studies have whole names.
+            section = own.replace(']', ".").replace("studies.", "");
+        }
+        let name = line.split(' ').next().unwrap_or_default();
+        !line.is_empty()
+            && !line.starts_with('#')
+            && !varied.contains(&&*format!("{section}{name}"))
+    };
+    let lines = file.lines().filter(|line| is_kept(line));
     lines.flat_map(|line| [line, "\n"]).collect()
 }
 
@@ -137,8 +150,13 @@ mod tests {
         let mut recipe = Recipe::default();
         recipe.set("filter.width", "0.25s").unwrap();
         recipe.set("keys.per_second", "4.5").unwrap();
-        let written = settings(&recipe);
+        let written = settings(&recipe, &[]);
         assert!(!written.contains('#'), "{written}");
         assert_eq!(Recipe::parse(&written).unwrap().0, recipe);
+        let others = settings(&recipe, &["filter.width", "filter.kind"]);
+        let expected =
+            written.replace("\nwidth = \"0.25s\"\n", "\n").replace("filter.kind = \"box\"\n", "");
+        assert_eq!(others, expected);
+        assert_eq!(others.lines().count() + 2, written.lines().count());
     }
 }
