@@ -67,10 +67,10 @@ pub(super) struct FormatArgs {
     /// Files that were changed since genga wrote them, and the folder of another clip.
     #[arg(long, help_heading = FILES)]
     force: bool,
-    /// Overwrite these painted pictures too (repeatable).
+    /// Overwrite these changed or painted files too (repeatable).
     ///
-    /// A picture or a folder of pictures: --overwrite images/A_0003.png.
-    #[arg(long, value_name = "PICTURE|FOLDER,…", value_delimiter = ',', help_heading = FILES)]
+    /// A file or a folder of pictures: --overwrite images/A_0003.png.
+    #[arg(long, value_name = "FILE|FOLDER,…", value_delimiter = ',', help_heading = FILES)]
     overwrite: Vec<String>,
 }
 
@@ -79,14 +79,14 @@ pub(super) struct FormatArgs {
 pub(super) struct Overwrites<'a> {
     /// All files but pictures.
     pub(super) is_forced: bool,
-    /// Pictures, or folders of pictures.
-    pictures: &'a [String],
+    /// Files, or folders.
+    named: &'a [String],
 }
 
 impl Overwrites<'_> {
-    /// Whether the user named this picture of a results folder, or a folder above it.
-    pub(super) fn has(&self, folder: &Path, picture: &str) -> bool {
-        self.pictures.iter().any(|name| is_named(name, folder, picture))
+    /// Whether the user named this file of a results folder, or a folder above it.
+    pub(super) fn has(&self, folder: &Path, file: &str) -> bool {
+        self.named.iter().any(|name| is_named(name, folder, file))
     }
 
     /// Refuses a name that is that of no file which comes into the folder.
@@ -96,10 +96,10 @@ impl Overwrites<'_> {
         come: &BTreeMap<String, String>,
     ) -> Result<(), Failure> {
         let is_of_none = |name: &&String| !come.keys().any(|file| is_named(name, folder, file));
-        match self.pictures.iter().find(is_of_none) {
+        match self.named.iter().find(is_of_none) {
             None => Ok(()),
             Some(name) => Err(Failure::AskedWrongly(format!(
-                "--overwrite {name}: this run writes no such picture or folder into {}",
+                "--overwrite {name}: this run writes no such file or folder into {}",
                 folder.display()
             ))),
         }
@@ -114,7 +114,7 @@ fn is_named(name: &str, folder: &Path, file: &str) -> bool {
 impl FormatArgs {
     /// Changed files that the arguments allow to overwrite.
     pub(super) fn over(&self) -> Overwrites<'_> {
-        Overwrites { is_forced: self.force, pictures: &self.overwrite }
+        Overwrites { is_forced: self.force, named: &self.overwrite }
     }
 }
 
