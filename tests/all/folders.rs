@@ -151,7 +151,7 @@ fn a_painted_picture_stays_unless_it_is_named() {
     assert!(stays());
     // Its name, in the folder or from here, is the way out; other pictures stay.
     let none = place.refused(2, &format!("run data/kick.bvh {images} --overwrite B_1.png --out a"));
-    assert!(none.contains("--overwrite B_1.png: this run writes no such picture"), "{none}");
+    assert!(none.contains("--overwrite B_1.png: this run writes no such file"), "{none}");
     place.done(&format!("run data/kick.bvh {images} --overwrite a/images --out a"));
     place.done(&format!("run data/kick.bvh {images} --out plain"));
     assert!(!stays());
