@@ -67,7 +67,7 @@ pub struct Engine {
 /// The sheet's clock, root motion, feet and last frame, a person's holds, the spoken lines, and the place in the cut.
 type SheetSettings = ((Clock, RootMotion, Feet, Frame), Vec<Hold>, Vec<Speech>, InCut);
 /// The koma on which the first drawing stands, the length of the cut, its slate, and its camera work.
-type InCut = (Option<usize>, Option<usize>, Slate, Vec<CameraCue>);
+type InCut = ((Option<usize>, Option<usize>), Slate, Vec<CameraCue>);
 
 impl Engine {
     /// Creates an engine for a clip.
@@ -178,7 +178,7 @@ impl Engine {
             done(layer);
         }
         self.sheet(recipe, edits)?;
-        self.cut(recipe, own);
+        self.cut(recipe, own)?;
         self.is_whole = true;
         Ok(self.breakdown(recipe))
     }
@@ -344,9 +344,9 @@ impl Engine {
     }
 
     /// Cuts the round of a loop out of the results.
-    fn cut(&mut self, recipe: &Recipe, edits: &Edits) {
+    fn cut(&mut self, recipe: &Recipe, edits: &Edits) -> Result<(), Error> {
         let count = self.split.output().len();
-        self.looped = self.laid.output().round.map(|round| {
+        let looped = self.laid.output().round.map(|round| {
             let all = Rounded {
                 source: &self.clip,
                 drawn: self.moving.drawn().value(),
@@ -356,8 +356,10 @@ impl Engine {
                 sheets: self.sheets.output().value(),
                 layers: self.layers[..count].iter().map(LayerStages::breakdown).collect(),
             };
-            Arc::new(round.cut(&all, recipe, edits))
+            round.cut(&all, recipe, edits).map(Arc::new)
         });
+        self.looped = looped.transpose()?;
+        Ok(())
     }
 
     /// Finds the keys of the first layer.
@@ -460,10 +462,15 @@ impl Engine {
         let output = self.laid.output();
         let laid = &output.value().clip;
         let of = (laid.clock(recipe.rate), recipe.root, recipe.feet, laid.last());
-        let in_cut = (edits.at, edits.length, edits.slate.clone(), edits.camera.clone());
+        // A loop is placed in the cut with all its rounds.
+        let placed = match output.round {
+            None => (edits.at, edits.length),
+            Some(_) => (None, None),
+        };
+        let in_cut = (placed, edits.slate.clone(), edits.camera.clone());
         let settings = (of, edits.holds.clone(), edits.speech.clone(), in_cut);
         self.sheets.try_make((output, layers), settings, |(laid, layers), settings| {
-            let ((clock, root, feet, last), holds, speech, (at, end, slate, cues)) = settings;
+            let ((clock, root, feet, last), holds, speech, ((at, end), slate, cues)) = settings;
             let held = |(spaced, omitted): (Of<'_, Spaced>, Of<'_, Omitted>)| {
                 let spaced = &spaced.value().layer;
                 (spaced.clone(), with_holds(&omitted.layer, spaced, holds, *clock))

@@ -23,7 +23,7 @@ impl CameraCue {
     }
 
     /// The same as a spoken line, which stands on the same koma.
-    fn speech(&self) -> Speech {
+    pub(crate) fn speech(&self) -> Speech {
         let [from, past] = self.frames;
         Speech { from, past, speaker: String::new(), words: self.text.clone() }
     }

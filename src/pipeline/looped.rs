@@ -6,11 +6,12 @@ use std::sync::Arc;
 
 use super::laid::{ROUNDS, Round};
 use super::layer::LayerBreakdown;
-use crate::edits::Edits;
+use crate::edits::{CameraCue, Edits, Speech};
+use crate::error::Error;
 use crate::keys::{Actions, BodyTurns, Candidate, Candidates, Key, LayerKeys, Origin, Walk, Wall};
 use crate::motion::{Clip, middle_round};
 use crate::recipe::Recipe;
-use crate::sheet::{Drawing, Exposure, Layer, Role, Sheet, Source, SpokenLine};
+use crate::sheet::{CameraWork, Drawing, Exposure, Layer, Role, Sheet, Source, SpokenLine};
 use crate::signal::{Signals, Turn};
 use crate::time::{Clock, Frame};
 use crate::timing::{Gone, OmissionReport, StageReport};
@@ -90,8 +91,16 @@ pub(super) struct Rounded<'a> {
 }
 
 impl Round {
-    /// Cuts the middle round out of the results of a run, and repeats its exposures.
-    pub(super) fn cut(&self, all: &Rounded<'_>, recipe: &Recipe, edits: &Edits) -> Looped {
+    /// Cuts the middle round out of the results of a run, repeats its exposures, and places them in the cut.
+    ///
+    /// # Errors
+    /// Those of [`Sheet::placed`].
+    pub(super) fn cut(
+        &self,
+        all: &Rounded<'_>,
+        recipe: &Recipe,
+        edits: &Edits,
+    ) -> Result<Looped, Error> {
         let is_drawn = !recipe.exaggerate.is_off();
         let frames = self.repeat.frames;
         let drawn = || middle_round(all.drawn).with_rate(all.source.rate());
@@ -112,7 +121,13 @@ impl Round {
         let start = self.start(&sheet.layers[root]);
         let [mut spaced, mut sheet] = [(spaced, true), (sheet, recipe.omission.keep_length)]
             .map(|(all, keeps)| self.sheet(all, (root, keeps), start, clock));
-        sheet.lines = self.lines(edits, clock, start, sheet.length());
+        let speech = edits.speech.iter().cloned();
+        sheet.lines = self.lines(speech, (clock, start), sheet.length());
+        let cues = edits.camera.iter().map(CameraCue::speech);
+        let camera = self.lines(cues, (clock, start), sheet.length());
+        let camera = camera.into_iter().map(CameraWork::from_line).collect();
+        let guesses = std::mem::take(&mut sheet.camera);
+        sheet.camera = CameraWork::with_guesses(camera, guesses);
         let cut = all.layers.iter().zip(&spaced.layers).zip(&sheet.layers);
         let layers = cut.map(|((layer, spaced), sheet)| self.layer(layer, spaced, sheet)).collect();
         for sheet in [&mut spaced, &mut sheet] {
@@ -120,7 +135,9 @@ impl Round {
             let layers = sheet.layers.iter_mut();
             layers.for_each(|layer| layer.exposures = layer.exposures.repeat(recipe.cycles));
         }
-        Looped {
+        let [spaced, sheet] = [spaced, sheet].map(|sheet| sheet.placed(edits.at, edits.length));
+        let (spaced, sheet) = (spaced?, sheet?);
+        Ok(Looped {
             actions: Actions::whole(&clip),
             clip,
             clock,
@@ -130,7 +147,7 @@ impl Round {
             spaced,
             sheet,
             layers,
-        }
+        })
     }
 
     /// Returns the place of the drawing with which the round begins: the first genga of the middle round that the next
@@ -163,7 +180,9 @@ impl Round {
         let end = again.filter(|end| !keeps && *end > begin);
         let end = end.unwrap_or(begin + self.repeat.koma);
         let layers = all.layers.iter().map(|layer| self.column(layer, begin..end)).collect();
-        Sheet { clock, layers, lines: Vec::new(), ..all.clone() }
+        let camera = all.camera.iter().filter(|work| work.is_guess);
+        let camera = camera.filter_map(|work| within(work, &(begin..end))).collect();
+        Sheet { clock, layers, lines: Vec::new(), camera, ..all.clone() }
     }
 
     /// Returns the koma on which the drawing at a place comes on screen; `None` if there is none within a koma.
@@ -199,19 +218,31 @@ impl Round {
         column
     }
 
-    /// Returns the spoken lines of the first round, on the koma after its first drawing.
-    fn lines(&self, edits: &Edits, clock: Clock, start: f64, length: usize) -> Vec<SpokenLine> {
+    /// Returns the lines of the first round, on the koma after its first drawing.
+    fn lines(
+        &self,
+        speech: impl Iterator<Item = Speech>,
+        (clock, start): (Clock, f64),
+        length: usize,
+    ) -> Vec<SpokenLine> {
         let (koma, last) = (self.repeat.koma, Frame(self.first.0 + self.repeat.frames));
         let phase = clock.koma_from_place(self.wrapped(start));
         let line = |line: SpokenLine| {
             let begin = ((line.begin + 2 * koma - phase) % koma).min(length.saturating_sub(1));
             SpokenLine { begin, koma: line.koma.min(length - begin), ..line }
         };
-        let lines = edits.speech.iter().filter_map(|own| own.on_sheet(clock, last, koma));
+        let lines = speech.filter_map(|own| own.on_sheet(clock, last, koma));
         let mut lines: Vec<SpokenLine> = lines.map(line).collect();
         lines.sort_by_key(|line| line.begin);
         lines
     }
+}
+
+/// The part of some camera work that falls on some koma, counted from the first of them.
+fn within(work: &CameraWork, koma: &Range<usize>) -> Option<CameraWork> {
+    let (begin, past) = (work.begin.max(koma.start), work.past().min(koma.end));
+    let own = past.checked_sub(begin).filter(|own| *own > 0)?;
+    Some(CameraWork { begin: begin - koma.start, koma: own, ..work.clone() })
 }
 
 /// The results of a layer for one round.

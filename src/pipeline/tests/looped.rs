@@ -187,3 +187,30 @@ fn a_used_engine_loops_and_runs_on_as_a_fresh_one_does() {
         assert!(run(&mut engine, &plain, &none) == fresh(&clip, &plain, &none));
     }
 }
+
+#[test]
+fn the_rounds_of_a_loop_stand_together_in_a_cut_of_the_length_that_is_asked_for() {
+    let mut engine = engine(0.3);
+    let placed = |engine: &mut Engine, cycles: usize, at: Option<usize>, length: Option<usize>| {
+        let recipe = Recipe { cycles, ..looped() };
+        let camera = vec![CameraCue { frames: [Frame(0), Frame(8)], text: "PAN".into() }];
+        let edits = Edits { at, length, camera, ..Edits::default() };
+        engine.run(&recipe, &edits).map(|breakdown| breakdown.sheet.clone())
+    };
+    for cycles in [1, 2, 5] {
+        let plain = placed(&mut engine, cycles, None, None).unwrap();
+        assert_eq!(plain.cut_length(), cycles * KOMA);
+        let late = placed(&mut engine, cycles, Some(25), Some(200)).unwrap();
+        assert_eq!((late.cut_length(), late.length()), (200, cycles * KOMA));
+        assert_eq!(late.layers, plain.layers);
+        let begins = |sheet: &Sheet| sheet.camera.iter().map(|work| work.begin).collect::<Vec<_>>();
+        assert_eq!(begins(&plain).len(), 1);
+        assert_eq!(begins(&late), [begins(&plain)[0] + 24]);
+    }
+    let error = placed(&mut engine, 6, None, Some(100)).unwrap_err().to_string();
+    assert!(
+        error.contains("the drawings stand on koma 1 to 156, and the cut is to have 100"),
+        "{error}"
+    );
+    assert!(placed(&mut engine, 1, None, Some(40)).is_ok());
+}
