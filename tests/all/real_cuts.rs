@@ -19,6 +19,11 @@ fn place(path: &Path) -> TempDir {
     folder
 }
 
+/// Checks each real clip, by its name, in a folder of its own.
+fn each(check: impl Fn(&str, &Path)) {
+    with(CLIPS, |paths| paths.iter().for_each(|path| check(&name(path), place(path).path())));
+}
+
 fn sheet(folder: &Path, name: &str) -> Value {
     serde_json::from_slice(&fs::read(folder.join(name)).unwrap()).unwrap()
 }
@@ -39,25 +44,21 @@ fn column(folder: &Path, name: &str, field: u64) -> Vec<String> {
 
 #[test]
 fn a_real_cut_enters_late_leaves_early_and_comes_back() {
-    with(CLIPS, |paths| {
-        for path in paths {
-            let (name, place) = (name(&path), place(&path));
-            let folder = place.path();
-            made(folder, "run take.bvh --deliver xdts --out plain");
-            let plain = column(folder, "plain/take_douga_ts.xdts", 0);
-            let (begin, end) = (24, 24 + plain.len());
-            let length = end + 14;
-            made(folder, &format!("run take.bvh --deliver xdts --out a --at 25 --length {length}"));
-            let late = column(folder, "a/take_douga_ts.xdts", 0);
-            assert_eq!(late.len(), length, "{name}");
-            assert_eq!(late[begin..end], plain, "{name}: the same drawings, 24 koma later");
-            let blank = |koma: &[String]| koma.iter().all(|word| word == "SYMBOL_NULL_CELL");
-            assert!(blank(&late[..begin]) && blank(&late[end..]), "{name}: {late:?}");
-            made(folder, "deliver a/take_douga_ts.xdts take.bvh --to json --out back");
-            let (there, back) = (sheet(folder, "a/sheet.json"), sheet(folder, "back/sheet.json"));
-            for part in ["layers", "at", "length"] {
-                assert_eq!(there[part], back[part], "{name}: {part}");
-            }
+    each(|name, folder| {
+        made(folder, "run take.bvh --deliver xdts --out plain");
+        let plain = column(folder, "plain/take_douga_ts.xdts", 0);
+        let (begin, end) = (24, 24 + plain.len());
+        let length = end + 14;
+        made(folder, &format!("run take.bvh --deliver xdts --out a --at 25 --length {length}"));
+        let late = column(folder, "a/take_douga_ts.xdts", 0);
+        assert_eq!(late.len(), length, "{name}");
+        assert_eq!(late[begin..end], plain, "{name}: the same drawings, 24 koma later");
+        let blank = |koma: &[String]| koma.iter().all(|word| word == "SYMBOL_NULL_CELL");
+        assert!(blank(&late[..begin]) && blank(&late[end..]), "{name}: {late:?}");
+        made(folder, "deliver a/take_douga_ts.xdts take.bvh --to json --out back");
+        let (there, back) = (sheet(folder, "a/sheet.json"), sheet(folder, "back/sheet.json"));
+        for part in ["layers", "at", "length"] {
+            assert_eq!(there[part], back[part], "{name}: {part}");
         }
     });
 }
@@ -86,71 +87,57 @@ fn rounds_of_a_real_walk_are_the_same_in_the_timesheet() {
 
 #[test]
 fn a_camera_over_a_real_cut_fills_its_column_and_a_word_of_a_person_goes_over_it() {
-    with(CLIPS, |paths| {
-        for path in paths {
-            let (name, place) = (name(&path), place(&path));
-            let folder = place.path();
-            fs::copy(here("data/kick-camera.json"), folder.join("camera.json")).unwrap();
-            let run = "run take.bvh --deliver xdts --camera-work camera.json";
-            let said = made(folder, &format!("{run} --out a"));
-            assert!(said.contains("guessed from the camera's motion"), "{name}: {said}");
-            let work = sheet(folder, "a/sheet.json")["camera"].as_array().unwrap().clone();
-            let column = column(folder, "a/take_douga_ts.xdts", 5);
-            for own in &work {
-                let [begin, koma] =
-                    ["begin", "koma"].map(|part| own[part].as_u64().unwrap() as usize);
-                assert_eq!(column[begin - 1], own["words"].as_str().unwrap(), "{name}: {own}");
-                let rest = &column[begin..begin - 1 + koma];
-                assert!(rest.iter().all(|word| word == "SYMBOL_HYPHEN"), "{name}: {rest:?}");
-            }
-            let first = sheet(folder, "a/report.json")["first_frame"].as_u64().unwrap();
-            let own =
-                format!("[[edits.camera]]\nframes = [{first}, {}]\ntext = \"FIX\"\n", first + 20);
-            fs::write(folder.join("own.toml"), own).unwrap();
-            made(folder, &format!("{run} --recipe own.toml --out b"));
-            let begin = &sheet(folder, "b/sheet.json")["camera"][0];
-            assert_eq!((&begin["begin"], &begin["words"]), (&json!(1), &json!("FIX")), "{name}");
+    each(|name, folder| {
+        fs::copy(here("data/kick-camera.json"), folder.join("camera.json")).unwrap();
+        let run = "run take.bvh --deliver xdts --camera-work camera.json";
+        let said = made(folder, &format!("{run} --out a"));
+        assert!(said.contains("guessed from the camera's motion"), "{name}: {said}");
+        let work = sheet(folder, "a/sheet.json")["camera"].as_array().unwrap().clone();
+        let column = column(folder, "a/take_douga_ts.xdts", 5);
+        for own in &work {
+            let [begin, koma] = ["begin", "koma"].map(|part| own[part].as_u64().unwrap() as usize);
+            assert_eq!(column[begin - 1], own["words"].as_str().unwrap(), "{name}: {own}");
+            let rest = &column[begin..begin - 1 + koma];
+            assert!(rest.iter().all(|word| word == "SYMBOL_HYPHEN"), "{name}: {rest:?}");
         }
+        let first = sheet(folder, "a/report.json")["first_frame"].as_u64().unwrap();
+        let own = format!("[[edits.camera]]\nframes = [{first}, {}]\ntext = \"FIX\"\n", first + 20);
+        fs::write(folder.join("own.toml"), own).unwrap();
+        made(folder, &format!("{run} --recipe own.toml --out b"));
+        let begin = &sheet(folder, "b/sheet.json")["camera"][0];
+        assert_eq!((&begin["begin"], &begin["words"]), (&json!(1), &json!("FIX")), "{name}");
     });
 }
 
 #[test]
 fn a_real_column_goes_into_somebody_s_timesheet_and_all_else_of_it_stays() {
-    with(CLIPS, |paths| {
-        for path in paths {
-            let (name, place) = (name(&path), place(&path));
-            let folder = place.path();
-            made(folder, "run take.bvh --deliver xdts --out a");
-            let drawn = column(folder, "a/take_douga_ts.xdts", 0);
-            let theirs = DIRECTORS.replacen("130", &drawn.len().to_string(), 1);
-            fs::write(folder.join("c045.xdts"), &theirs).unwrap();
-            made(folder, "deliver a/sheet.json take.bvh --into c045.xdts --out out");
-            let put = fs::read_to_string(folder.join("out/c045.xdts")).unwrap();
-            let track = put.find(",{\"frames\":").unwrap();
-            let end = track + put[track..].find("\"trackNo\":1}").unwrap() + "\"trackNo\":1}".len();
-            assert_eq!([&put[..track], &put[end..]].concat(), theirs, "{name}: byte for byte");
-            let own: Value = serde_json::from_str(&put[track + 1..end]).unwrap();
-            let frames = own["frames"].as_array().unwrap();
-            assert!(frames.len() > 5, "{name}: {own}");
-            for frame in frames {
-                let at = frame["frame"].as_u64().unwrap() as usize;
-                let word = drawn.get(at).map_or("SYMBOL_NULL_CELL", String::as_str);
-                assert_eq!(frame["data"][0]["values"][0], word, "{name}: koma {}", at + 1);
-            }
+    each(|name, folder| {
+        made(folder, "run take.bvh --deliver xdts --out a");
+        let drawn = column(folder, "a/take_douga_ts.xdts", 0);
+        let theirs = DIRECTORS.replacen("130", &drawn.len().to_string(), 1);
+        fs::write(folder.join("c045.xdts"), &theirs).unwrap();
+        made(folder, "deliver a/sheet.json take.bvh --into c045.xdts --out out");
+        let put = fs::read_to_string(folder.join("out/c045.xdts")).unwrap();
+        let track = put.find(",{\"frames\":").unwrap();
+        let end = track + put[track..].find("\"trackNo\":1}").unwrap() + "\"trackNo\":1}".len();
+        assert_eq!([&put[..track], &put[end..]].concat(), theirs, "{name}: byte for byte");
+        let own: Value = serde_json::from_str(&put[track + 1..end]).unwrap();
+        let frames = own["frames"].as_array().unwrap();
+        assert!(frames.len() > 5, "{name}: {own}");
+        for frame in frames {
+            let at = frame["frame"].as_u64().unwrap() as usize;
+            let word = drawn.get(at).map_or("SYMBOL_NULL_CELL", String::as_str);
+            assert_eq!(frame["data"][0]["values"][0], word, "{name}: koma {}", at + 1);
         }
     });
 }
 
 #[test]
 fn the_numbers_of_a_real_file_s_name_are_on_its_sheet() {
-    with(CLIPS, |paths| {
-        for path in paths {
-            let place = place(&path);
-            let folder = place.path();
-            fs::rename(folder.join("take.bvh"), folder.join("ep03_s12_c045.bvh")).unwrap();
-            made(folder, "run ep03_s12_c045.bvh --deliver xdts --out a");
-            let header = &timesheet(folder, "a/ep03_s12_c045_douga_ts.xdts")["header"];
-            assert_eq!(*header, json!({ "cut": "45", "scene": "12" }), "{}", name(&path));
-        }
+    each(|name, folder| {
+        fs::rename(folder.join("take.bvh"), folder.join("ep03_s12_c045.bvh")).unwrap();
+        made(folder, "run ep03_s12_c045.bvh --deliver xdts --out a");
+        let header = &timesheet(folder, "a/ep03_s12_c045_douga_ts.xdts")["header"];
+        assert_eq!(*header, json!({ "cut": "45", "scene": "12" }), "{name}");
     });
 }

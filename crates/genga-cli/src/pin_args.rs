@@ -189,7 +189,7 @@ fn of_timesheet(
         return Err(nothing_marked(name, column, numbered));
     }
     let frames = (engine.clip().first(), engine.clip().last());
-    let beside = beside(name, engine.clip(), file.length);
+    let beside = sheet_beside(name, engine.clip(), file.length);
     // Computes the sheet without `only_pins`: the marked keys may be the only ones.
     let before = Edits { only_pins: false, ..edits.clone() };
     let sheet = match &beside {
@@ -220,7 +220,7 @@ fn of_timesheet(
 }
 
 /// Finds the sheet of the clip that a timesheet of `length` koma was made from, with its path.
-fn beside(timesheet: &Path, clip: &Clip, length: usize) -> Option<(PathBuf, Sheet)> {
+fn sheet_beside(timesheet: &Path, clip: &Clip, length: usize) -> Option<(PathBuf, Sheet)> {
     let path = sheets::own_sheet(timesheet)?;
     let file = sheet_json::read(&files::read(&path).ok()?).ok()?;
     let SheetFile { sheet, clip: own, .. } = file;

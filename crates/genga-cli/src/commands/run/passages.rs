@@ -1,4 +1,4 @@
-//! What a run says of passages (区間): how many drawings each has, and how many of them omission took.
+//! Reports the drawings of each passage (区間), and how many omission took.
 
 use std::collections::BTreeSet;
 
