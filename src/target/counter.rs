@@ -1,4 +1,4 @@
-//! Counts keys and genga for the search (枚数を数える), at once or one count a step.
+//! Counts keys, genga and gaits for the search (枚数を数える), at once or one count a step.
 
 use super::{key_count_search, layer};
 use crate::edits::Edits;
@@ -14,6 +14,9 @@ pub(super) trait Counter {
     /// The genga on the sheet of a recipe.
     fn genga(&mut self, recipe: &Recipe, edits: &Edits) -> Result<usize, Error>;
 
+    /// The gaits in all layers of a recipe.
+    fn gaits(&mut self, recipe: &Recipe, edits: &Edits) -> Result<usize, Error>;
+
     /// The engine that counts.
     fn engine(&mut self) -> &mut Engine;
 }
@@ -27,6 +30,11 @@ impl Counter for Engine {
         Ok(layer(&self.run(recipe, edits)?).genga())
     }
 
+    fn gaits(&mut self, recipe: &Recipe, edits: &Edits) -> Result<usize, Error> {
+        let layers = self.run(recipe, edits)?.layers();
+        Ok(layers.map(|layer| layer.keys.gaits.len()).sum())
+    }
+
     fn engine(&mut self) -> &mut Engine {
         self
     }
@@ -37,6 +45,7 @@ impl Counter for Engine {
 pub(super) enum Of {
     Found,
     Genga,
+    Gaits,
 }
 
 /// The counts of a search so far.
@@ -80,6 +89,10 @@ impl Counter for OneStep<'_> {
 
     fn genga(&mut self, recipe: &Recipe, edits: &Edits) -> Result<usize, Error> {
         self.count(Of::Genga, recipe, |engine| engine.genga(recipe, edits))
+    }
+
+    fn gaits(&mut self, recipe: &Recipe, edits: &Edits) -> Result<usize, Error> {
+        self.count(Of::Gaits, recipe, |engine| engine.gaits(recipe, edits))
     }
 
     fn engine(&mut self) -> &mut Engine {
