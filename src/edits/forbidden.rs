@@ -25,6 +25,15 @@ impl Forbidden {
         Self { from: frame, past: Frame(frame.0.saturating_add(1)) }
     }
 
+    /// Creates the ban of every key between two that stay, of which one stands at `frame`. Where the two are so near that
+    /// any ban reaches one of them, it is that frame alone.
+    pub fn between(before: Frame, frame: Frame, after: Frame, koma: f64) -> Self {
+        let reach = (REACH * koma + 1e-9) as usize;
+        let range =
+            Self { from: Frame(before.0 + reach + 1), past: Frame(after.0.saturating_sub(reach)) };
+        if range.from < range.past { range } else { Self::one(frame) }
+    }
+
     /// Whether this is a single frame.
     pub fn is_one(self) -> bool {
         self == Self::one(self.from)

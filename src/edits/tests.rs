@@ -207,6 +207,23 @@ proptest! {
     }
 
     #[test]
+    fn between_two_keys_that_stay_every_other_is_banned_and_they_are_not(
+        (before, gap, at) in (0..99usize, 2..40usize, 0.0..1.0f64),
+        koma in prop::sample::select(vec![1.0, 1.25, 2.5, 5.0]),
+    ) {
+        let after = before + gap;
+        let frame = before + 1 + (at * (gap - 1) as f64) as usize;
+        let ban = Forbidden::between(Frame(before), Frame(frame), Frame(after), koma);
+        let banned = |frame: usize| ban.reaches(Frame(frame), koma);
+        if ban.is_one() && ban.from == Frame(frame) {
+            // Nearer than two koma on both sides there is no ban that spares both.
+            prop_assert!(banned(frame) && gap as f64 <= 4.0 * koma + 2.0);
+        } else {
+            prop_assert!((before + 1..after).all(banned) && !banned(before) && !banned(after), "{}", ban);
+        }
+    }
+
+    #[test]
     fn corrections_read_back_as_written(
         pins in prop::collection::vec((0..99usize, prop::option::of("[a-z]{1,5}"), prop::option::of(0.0..1.0)), 0..4),
         ranges in prop::collection::vec((0..99usize, 1..9usize), 0..4),

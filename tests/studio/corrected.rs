@@ -25,7 +25,7 @@ fn a_key_is_set_and_taken_back_on_the_keyboard() {
     table.go(43);
     table.tap(Modifiers::NONE, Key::K);
     assert_eq!(table.pins(), [42], "koma 43 shows frame 42");
-    table.harness.get_by_label("Remove: pinned 42");
+    table.harness.get_by_label("Remove: pinned koma 43");
     table.tap(Modifiers::NONE, Key::K);
     assert!(table.edits().is_empty());
     table.tap(Modifiers::COMMAND, Key::Z);
@@ -171,8 +171,8 @@ fn a_hold_is_set_on_the_keyboard_and_survives_another_recipe() {
     assert_eq!(table.edits().holds.len(), 1);
     assert_eq!(table.edits().holds[0].koma, 11);
     table.turn("spacing.on", "3");
-    table.harness.get_by_label("held 0: 11 koma");
-    table.harness.get_by_label("Remove: held 0: 11 koma").click();
+    table.harness.get_by_label("held koma 1: for 11");
+    table.harness.get_by_label("Remove: held koma 1: for 11").click();
     table.harness.run();
     assert!(table.edits().is_empty());
 }

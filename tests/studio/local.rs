@@ -10,7 +10,7 @@ use crate::harness::{Table, sample};
 
 impl Table {
     /// The koma of the genga, from 1, found by stepping the play head.
-    fn genga(&mut self) -> Vec<usize> {
+    pub(crate) fn genga(&mut self) -> Vec<usize> {
         let koma = |table: &Table| -> usize {
             let head = table.harness.get_by_label("Play head").accesskit_node().value().unwrap();
             head.split(' ').next().unwrap().parse().unwrap()
@@ -48,6 +48,19 @@ fn frozen_genga_stay_whatever_the_knobs_say() {
     table.tap(Modifiers::NONE, Key::W);
     assert!(table.genga().len() < before.len(), "thawed, the knob has its say");
     assert!(table.edits().frozen.is_empty());
+}
+
+#[test]
+fn a_genga_that_is_taken_away_leaves_none_in_its_place() {
+    let mut table = Table::with_kick();
+    let before = table.genga();
+    for koma in before[1..before.len() - 1].iter().step_by(3) {
+        table.go(*koma);
+        table.tap(Modifiers::NONE, Key::K);
+        let after = table.genga();
+        assert_eq!(after.len(), before.len() - 1, "{koma} of {before:?}: {after:?}");
+        table.tap(Modifiers::COMMAND, Key::Z);
+    }
 }
 
 #[test]

@@ -1,12 +1,17 @@
 //! The strip of genga: chosen, dragged, pinned, forbidden and held on the figures, and played under the pointer.
 
-use egui::{Key, Modifiers, PointerButton, Pos2, Rect, Shape, pos2, vec2};
-use egui_kittest::kittest::{NodeT, Queryable};
+use std::sync::Arc;
 
-use crate::harness::Table;
+use egui::{Key, Modifiers, PointerButton, Pos2, Rect, Shape, Theme, pos2, vec2};
+use egui_kittest::kittest::{NodeT, Queryable};
+use genga_studio::Language;
+
+use crate::harness::{Table, sample};
 
 /// Room at both sides of the strip, in points.
 const SIDE: f32 = 22.0;
+/// Height of the circles above the lower edge of the strip, in points.
+const CIRCLE: f32 = 22.0;
 
 impl Table {
     fn strip(&self) -> Rect {
@@ -104,6 +109,22 @@ fn a_figure_is_pinned_forbidden_and_let_go_where_it_stands() {
     assert!(table.edits().is_empty());
     press(&mut table, "Forbid");
     assert_eq!(table.edits().forbidden.len(), 1);
+}
+
+#[test]
+fn a_genga_without_room_for_its_figure_has_its_buttons_all_the_same() {
+    let mut table =
+        Table::in_window(((640, 400), 1.0), Arc::default(), Language::English, Theme::Light);
+    table.open(&sample("kick.bvh"));
+    let genga = table.genga();
+    for koma in &genga[1..genga.len() - 1] {
+        let circle = pos2(table.on_strip(koma - 1, 0.0).x, table.strip().max.y - CIRCLE);
+        table.harness.hover_at(circle);
+        table.harness.run_steps(2);
+        let strip = table.strip();
+        let mut buttons = table.harness.query_all_by_label("Pin").map(|node| node.rect());
+        assert!(buttons.any(|rect| strip.intersects(rect)), "koma {koma}");
+    }
 }
 
 #[test]

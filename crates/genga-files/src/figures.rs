@@ -79,6 +79,9 @@ fn put_pages(
     Ok(())
 }
 
+/// Whether this build writes pages in pixels: [`FigureSettings::png`], `preview`, `mp4`.
+pub const HAS_PIXELS: bool = cfg!(feature = "pictures");
+
 #[cfg(feature = "pictures")]
 fn png(svg: &str) -> Result<Vec<u8>, Error> {
     genga_plot::png_from_svg(svg, 1.0)

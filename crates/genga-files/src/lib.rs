@@ -57,7 +57,7 @@ pub use curves::{CurveErrors, Curves, distances, tangents};
 pub use cut::{Cut, Sink};
 pub use cycle_table::cycles_csv;
 pub use drawing_table::{Drawings, Rows};
-pub use figures::FigureSettings;
+pub use figures::{FigureSettings, HAS_PIXELS};
 pub use glb::{Glb, LengthUnit, Up};
 pub use koma::sheet_csv;
 pub use limited_bvh::{keys_bvh, limited, limited_bvh};

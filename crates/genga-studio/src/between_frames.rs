@@ -41,7 +41,7 @@ impl Studio {
             match (written, to) {
                 (Ok(text), Some(to)) => {
                     let (next, japanese) = to.next();
-                    self.tell(&format!("{text}\n{next}"), &format!("{text}\n{japanese}"));
+                    self.tell(&format!("{next}\n{text}"), &format!("{japanese}\n{text}"));
                 }
                 (Ok(text), None) => self.say(text),
                 (Err(text), _) => self.fail(text),

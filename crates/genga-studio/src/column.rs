@@ -2,8 +2,8 @@
 
 use std::ops::Deref;
 
-use genga::edits::{Edits, Hold};
-use genga::keys::Key;
+use genga::edits::{Edits, Forbidden, Hold};
+use genga::keys::{Key, Origin};
 use genga::pipeline::{Breakdown, LayerBreakdown};
 use genga::recipe::Recipe;
 use genga::sheet::{Layer, Source};
@@ -77,6 +77,23 @@ impl<'a> Column<'a> {
     /// The keys that were found or set by hand.
     pub(super) fn keys(&self) -> &'a [Key] {
         &self.found.keys.keys
+    }
+
+    /// The frames at which no key may be found once one is taken away: those between its neighbours.
+    pub(super) fn place_of(&self, key: &Key) -> Forbidden {
+        let found = match key.origin {
+            Origin::Moved { from } => from,
+            _ => key.frame,
+        };
+        let others =
+            || self.keys().iter().filter(|other| other.frame != key.frame).map(|other| other.frame);
+        let before = others().filter(|other| *other < found).max();
+        let after = others().filter(|other| *other > found).min();
+        let first = Frame(self.clock.first.0);
+        let last = self.clock.place_from_koma(self.length);
+        let last = Frame(last.max(0.0).ceil() as usize);
+        let koma = self.clock.frames_in_koma();
+        Forbidden::between(before.unwrap_or(first), found, after.unwrap_or(last), koma)
     }
 
     /// The spacing of the column along the sheet; `last` is the clip's last frame.

@@ -59,9 +59,11 @@ fn show(ui: &mut Ui, shown: &Shown<'_>, commands: &mut Vec<Command>) {
         }
         passages(ui, shown, commands);
         for hold in &edits.holds {
-            let koma = shown.words.say("koma", "コマ");
-            let what =
-                format!("{} {}: {} {koma}", words.say("held", "止め"), hold.frame, hold.koma);
+            let (held, place) = (words.say("held", "止め"), shown.named(hold.frame));
+            let what = match words.is_japanese() {
+                true => format!("{held} {place}: {}コマ", hold.koma),
+                false => format!("{held} {place}: for {}", hold.koma),
+            };
             let back = Correction::LetGo(hold.frame);
             Row { column: None, what, at: Some(hold.frame) }.show(ui, back, shown, commands);
         }
@@ -101,19 +103,27 @@ fn keys_of(
     let words = shown.words;
     let mut row = |what, at, back| Row { column, what, at }.show(ui, back, shown, commands);
     for pin in &own.pins {
-        let what = format!("{} {}", words.say("pinned", "固定"), pin.frame);
+        let what = format!("{} {}", words.say("pinned", "固定"), shown.named(pin.frame));
         let back = Correction::TakeBack(key(pin.frame, Origin::Pinned));
         row(with_mark(what, pin, words), Some(pin.frame), back);
     }
     for moved in &own.moves {
         let (from, to) = (moved.from, moved.to);
         let (moves, arrow) = (words.say("moved", "移動"), words.arrow());
+        let (from, to) = (shown.named(from), shown.named(to));
         let what = with_mark(format!("{moves} {from} {arrow} {to}"), &moved.pin(), words);
         let back = Correction::TakeBack(key(moved.to, Origin::Moved { from: moved.from }));
         row(what, Some(moved.to), back);
     }
     for range in &own.forbidden {
-        let what = format!("{} {range}", words.say("forbidden", "禁止"));
+        let forbidden = words.say("forbidden", "禁止");
+        let what = match range.is_one() {
+            true => format!("{forbidden} {}", shown.named(range.from)),
+            false => {
+                let last = shown.frame(range.past.0 as f64 - 1.0);
+                format!("{forbidden} {}–{}", shown.named(range.from), shown.number_of(last))
+            }
+        };
         let at = Some(range.from).filter(|frame| shown.breakdown.clip.contains(*frame));
         row(what, at, Correction::Allow(*range));
     }
@@ -155,12 +165,16 @@ impl Row<'_> {
     /// Shows a button that takes it back, and a link to its place.
     fn show(self, ui: &mut Ui, back: Correction, shown: &Shown<'_>, commands: &mut Vec<Command>) {
         let what = self.column.map(|name| format!("{name} ")).unwrap_or_default() + &self.what;
+        let source = self.at.map_or_else(String::new, |frame| match shown.words.is_japanese() {
+            true => format!("素材のフレーム {frame}"),
+            false => format!("source frame {frame}"),
+        });
         ui.horizontal(|ui| {
             let name = format!("{}: {what}", shown.words.say("Remove", "取り消す"));
             if icon::button(ui, Icon::Cross, &name).clicked() {
                 commands.push(Command::CorrectOf(self.column.map(String::from), back));
             }
-            let is_clicked = ui.link(&what).clicked();
+            let is_clicked = ui.link(&what).on_hover_text(source).clicked();
             if let Some(number) = self.at.and_then(|frame| self.genga_number(frame, shown)) {
                 ui.weak(format!("{} {number}", shown.words.say("genga", "原画")));
             }

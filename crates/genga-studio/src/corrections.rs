@@ -13,8 +13,8 @@ pub(super) enum Correction {
     PinKey(Key),
     /// Takes a correction back, so that what was found applies again.
     TakeBack(Key),
-    /// Forbids a key at its frame.
-    Forbid(Key),
+    /// Takes a key away, and bans all keys from a range, so that none is found in its place.
+    Forbid(Key, Forbidden),
     /// Moves a key to a frame.
     Move(Key, Frame),
     /// Names a key. An empty name removes the name.
@@ -44,7 +44,7 @@ impl Correction {
             Self::Pin(frame) => on.pin(*frame),
             Self::PinKey(key) => drop(on.own_pin(key)),
             Self::TakeBack(key) => on.take_back(key),
-            Self::Forbid(key) => on.forbid(key),
+            Self::Forbid(key, range) => on.forbid(key, *range),
             Self::Move(key, to) => on.move_to(key, *to),
             Self::Name(key, name) => {
                 let name = name.trim();
@@ -121,13 +121,8 @@ impl Of<'_> {
         self.edits.only_pins &= is_left;
     }
 
-    fn forbid(&mut self, key: &Key) {
+    fn forbid(&mut self, key: &Key, range: Forbidden) {
         self.take_back(key);
-        let found = match key.origin {
-            Origin::Moved { from } => from,
-            _ => key.frame,
-        };
-        let range = Forbidden::one(found);
         if self.edits.forbidden.contains(&range) {
             return;
         }
@@ -253,19 +248,24 @@ mod tests {
     }
 
     #[test]
-    fn a_forbidden_key_is_forbidden_where_it_was_found_and_may_be_again() {
-        let one = |frame| vec![Forbidden::one(Frame(frame))];
-        let edits = Correction::Forbid(key(41, Origin::Turn)).on(&Edits::default(), None);
-        assert_eq!(edits.forbidden, one(41));
+    fn a_key_that_is_taken_away_bans_a_range_until_a_person_wants_one_there() {
+        let range = Forbidden { from: Frame(37), past: Frame(52) };
+        let edits = Correction::Forbid(key(41, Origin::Turn), range).on(&Edits::default(), None);
+        assert_eq!(edits.forbidden, [range]);
+        let again = Correction::Forbid(key(41, Origin::Turn), range).on(&edits, None);
+        assert_eq!(again, edits, "once is enough");
         let moved = Correction::Move(key(41, Origin::Turn), Frame(43)).on(&Edits::default(), None);
-        let gone = Correction::Forbid(key(43, Origin::Moved { from: Frame(41) })).on(&moved, None);
-        assert_eq!((gone.forbidden, gone.moves), (one(41), vec![]));
-        assert_eq!(Correction::Allow(Forbidden::one(Frame(41))).on(&edits, None), Edits::default());
+        let gone =
+            Correction::Forbid(key(43, Origin::Moved { from: Frame(41) }), range).on(&moved, None);
+        assert_eq!((gone.forbidden, gone.moves), (vec![range], vec![]));
+        assert_eq!(Correction::Allow(range).on(&edits, None), Edits::default());
+        let pinned = Correction::Pin(Frame(41)).on(&edits, None);
+        assert_eq!((pinned.forbidden.len(), pinned.pins.len()), (1, 1), "a pin is an exception");
+        let one = Forbidden::one(Frame(41));
+        let edits = Correction::Forbid(key(41, Origin::Turn), one).on(&Edits::default(), None);
         let twice =
             Correction::Pin(Frame(41)).on(&Correction::Pin(Frame(41)).on(&edits, None), None);
-        assert_eq!(twice.pins.len(), 1, "once is enough");
-        let pinned = Correction::Pin(Frame(41)).on(&edits, None);
-        assert_eq!((pinned.forbidden.len(), pinned.pins.len()), (0, 1), "the last word counts");
+        assert_eq!((twice.forbidden.len(), twice.pins.len()), (0, 1), "the last word counts");
     }
 
     #[test]
@@ -313,7 +313,9 @@ mod tests {
         assert_eq!(bare, all, "a column of which nothing is said is not named");
         let none = Correction::TakeBack(key(9, Origin::Pinned)).on(&bare, Some("B"));
         assert_eq!(none, Edits::default());
-        let forbidden = Correction::Forbid(key(41, Origin::Turn)).on(&Edits::default(), Some("B"));
+        let one = Forbidden::one(Frame(41));
+        let forbidden = Correction::Forbid(key(41, Origin::Turn), one);
+        let forbidden = forbidden.on(&Edits::default(), Some("B"));
         assert_eq!(forbidden.layers["B"].forbidden, [Forbidden::one(Frame(41))]);
         let allowed = Correction::Allow(Forbidden::one(Frame(41))).on(&forbidden, Some("B"));
         assert_eq!(allowed, Edits::default());

@@ -78,7 +78,7 @@ impl Curves {
         let name = shown.words.say("Speed curves", "速度のグラフ");
         response.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, name));
         response.context_menu(|ui| match &self.hand.asked {
-            Some(key) => key_menu::show(ui, key, shown.words, commands),
+            Some(key) => key_menu::show(ui, key, shown, commands),
             None => key_menu::show_none(ui, shown, commands),
         });
         ui.advance_cursor_after_rect(rect);

@@ -32,10 +32,10 @@ static DESTINATIONS: [Destination; 8] = [
         formats: &["xdts", "images"],
         writes: "two timesheets (XDTS), numbered pictures",
         writes_japanese: "タイムシート2枚 (XDTS)、番号付きの絵",
-        next: "In Clip Studio Paint: File, Import, Timesheet; choose the _genga_ts.xdts, then draw over the pictures in \
-               images.",
-        next_japanese: "CLIP STUDIO PAINT の「ファイル」→「読み込み」→「タイムシート情報」で _genga_ts.xdts を選び、\
-                        images の絵の上に描く。",
+        next: "In Clip Studio Paint: File, Import, Timesheet; choose the _genga_ts.xdts, or the _douga_ts.xdts with the \
+               inbetweens too. The picture of cel 1 is images/A_0001.png: draw over it.",
+        next_japanese: "CLIP STUDIO PAINT の「ファイル」→「読み込み」→「タイムシート情報」で _genga_ts.xdts (中割りも入れるなら \
+                        _douga_ts.xdts) を選ぶ。セル1の絵は images/A_0001.png。その上に描く。",
     },
     Destination {
         english: "OpenToonz",
@@ -115,6 +115,11 @@ impl Destination {
         !order.formats.is_empty() && order.formats == self.ordered()
     }
 
+    /// What it writes beyond what every export has.
+    pub(super) fn writes(&self, words: Words) -> &'static str {
+        words.say(self.writes, self.writes_japanese)
+    }
+
     /// The next step there, in English and in Japanese.
     pub(super) fn next(&self) -> (&'static str, &'static str) {
         (self.next, self.next_japanese)
@@ -130,12 +135,11 @@ pub(super) fn of(order: &Order) -> Option<&'static Destination> {
 pub(super) fn show(ui: &mut Ui, order: &mut Order, words: Words) {
     let columns = ((ui.available_width() + GAP) / (WIDE + GAP)).floor().clamp(1.0, 4.0) as usize;
     Grid::new("destinations").num_columns(columns).spacing([GAP, GAP]).show(ui, |ui| {
-        // A page writes no pictures, so a destination that needs nothing else is not offered there.
+        // A build without images cannot write for all of them.
         let all = DESTINATIONS.iter().filter(|own| !own.ordered().is_empty());
         for (at, destination) in all.enumerate() {
             let name = words.say(destination.english, destination.japanese);
-            let writes = words.say(destination.writes, destination.writes_japanese);
-            if card(ui, (name, writes), destination.is_of(order)).clicked() {
+            if card(ui, (name, destination.writes(words)), destination.is_of(order)).clicked() {
                 order.formats = destination.ordered();
             }
             if at % columns == columns - 1 {

@@ -79,6 +79,12 @@ impl OrderPanel {
             let is_own = !order.formats.is_empty() && destinations::of(order).is_none();
             header.default_open(is_own).show_unindented(ui, |ui| {
                 formats(ui, order, &self.always, words);
+                settings(
+                    ui,
+                    order,
+                    |section| self.always.contains(&section) || section == FIGURES,
+                    words,
+                );
             });
             ui.separator();
             ui.horizontal(|ui| {
@@ -86,7 +92,8 @@ impl OrderPanel {
                 camera(ui, order, words);
             });
             split(ui, layers, words, commands);
-            settings(ui, order, &self.always, words);
+            let own = order.formats.clone();
+            settings(ui, order, |section| own.contains(&section), words);
             focus::bring_into_view(ui);
         });
         ui.separator();
@@ -120,7 +127,7 @@ impl OrderPanel {
     fn decide(&mut self, ui: &mut Ui, words: Words, commands: &mut Vec<Command>) {
         let Some(order) = &self.order else { return };
         let is_named = order.folder != Path::new("");
-        let write = Button::new(words.say("Write the files", "書き出す"));
+        let write = Button::new(words.say("Write the files", "書き出す")).selected(true);
         let write = ui.add_enabled(is_named, write);
         Part::Notices.begins(&write);
         if std::mem::take(&mut self.wants_focus) {
@@ -132,14 +139,16 @@ impl OrderPanel {
         if ui.button(words.say("Cancel", "やめる")).clicked() {
             commands.push(Command::Dismiss);
         }
+        let all = words.say("sheet, tables, figures, recipe", "シート、表、図、レシピ");
+        ui.weak(match destinations::of(order) {
+            Some(destination) => format!("{}; {all}", destination.writes(words)),
+            None => all.to_owned(),
+        });
     }
 }
 
 /// Shows the settings of the wanted formats: paper, tables, pictures.
-fn settings(ui: &mut Ui, order: &mut Order, always: &[&'static str], words: Words) {
-    let is_wanted = |section: &str| {
-        order.formats.iter().chain(always).any(|format| *format == section) || section == FIGURES
-    };
+fn settings(ui: &mut Ui, order: &mut Order, is_wanted: impl Fn(&str) -> bool, words: Words) {
     let mut sections: Vec<&str> = Vec::new();
     let values = order.asked.settings();
     for (knob, _) in &values {
@@ -158,7 +167,9 @@ fn settings(ui: &mut Ui, order: &mut Order, always: &[&'static str], words: Word
             Grid::new(section).num_columns(2 * columns).spacing([14.0, 4.0]).show(ui, |ui| {
                 let own = values.iter().filter(|(knob, _)| {
                     // The camera is asked once for all figures.
-                    knob.path().0 == Some(section) && knob.path().1 != "camera"
+                    let is_asked = knob.path().1 != "camera"
+                        && (genga_files::HAS_PIXELS || knob.path().1 != "png");
+                    knob.path().0 == Some(section) && is_asked
                 });
                 for (at, (knob, value)) in own.enumerate() {
                     knobs::help(ui.label(knobs::label(knob, words)), knob, "", words);

@@ -7,8 +7,8 @@ mod signs;
 pub(super) mod stops;
 
 use egui::{
-    Button, ComboBox, Label, Layout, Response, RichText, Slider, SliderClamping, Ui, UiBuilder,
-    vec2,
+    Button, Color32, ComboBox, Label, Layout, Response, RichText, Slider, SliderClamping,
+    TextStyle, Ui, UiBuilder, vec2,
 };
 
 use self::presets::PRESETS;
@@ -65,22 +65,20 @@ impl Goal {
     fn help(self, words: Words) -> &'static str {
         match self {
             Self::Genga => words.say(
-                "Few genga: only the strongest poses. Many: small turns too. Sets keys.min_price, or the limit \
-                 keys.per_second, as --keys does.",
-                "少ないと強いポーズだけ、多いと小さな変わり目も原画になる。--keys と同じく keys.min_price か \
-                 keys.per_second を決める。",
+                "Few: only the strongest poses. Many: small turns too.\n(--keys: keys.min_price, keys.per_second)",
+                "少ないと強いポーズだけ、多いと小さな変わり目も原画になる。\n(--keys: keys.min_price, keys.per_second)",
             ),
             Self::Pace => words.say(
-                "Few: on threes with long holds. Many: on ones, nothing held. Sets spacing.on, spacing.drift and \
-                 omission.koma_dori.",
-                "少ないと3コマ打ちで止めが長く、多いと1コマ打ちで止めがない。spacing.on、spacing.drift、\
-                 omission.koma_dori を決める。",
+                "Few: on threes with long holds. Many: on ones, nothing held.\n(spacing.on, spacing.drift, \
+                 omission.koma_dori)",
+                "少ないと3コマ打ちで止めが長く、多いと1コマ打ちで止めがない。\n(spacing.on, spacing.drift, \
+                 omission.koma_dori)",
             ),
             Self::Snap => words.say(
-                "Even: inbetweens at equal distances. Snappy: crowded at the genga, the fastest left out; at the end \
-                 anticipation and follow-through. Sets spacing.weight, omission.naka_nashi and exaggerate.cartoon.",
-                "均等なら中割りは等間隔。強いほど原画の近くに詰まり、最も速い中割りを抜く。右端では予備動作と後追いも\
-                 加わる。spacing.weight、omission.naka_nashi、exaggerate.cartoon を決める。",
+                "Left: inbetweens at equal distances. Right: crowded at the genga, the fastest left out. Far right: \
+                 anticipation and follow-through too.\n(spacing.weight, omission.naka_nashi, exaggerate.cartoon)",
+                "左は中割りが等間隔。右ほど原画の近くに詰まり、最も速い中割りを抜く。右端では予備動作と後追いも加わる。\n\
+                 (spacing.weight, omission.naka_nashi, exaggerate.cartoon)",
             ),
         }
     }
@@ -132,7 +130,11 @@ impl Goals {
                 ui.label(RichText::new(frames.to_string()).color(seen.look.playhead));
             }
             let whole = effect::of(goal, seen);
-            let effect = if wide < ROOMY { effect::in_short(goal, seen) } else { whole.clone() };
+            let effect = if wide < ROOMY || !fits(ui, &whole) {
+                effect::in_short(goal, seen)
+            } else {
+                whole.clone()
+            };
             let ink = if effect::is_new(goal, seen) { seen.look.playhead } else { seen.look.faint };
             ui.add(Label::new(RichText::new(&effect).color(ink)).truncate()).on_hover_text(whole);
         });
@@ -176,6 +178,13 @@ impl Goals {
             "枚数は全身を1枚のセルとして決める。セルに分ける前に決めてください。",
         ))
     }
+}
+
+/// Whether a text fits into what is left of a row.
+fn fits(ui: &Ui, text: &str) -> bool {
+    let font = TextStyle::Body.resolve(ui.style());
+    let text = ui.painter().layout_no_wrap(text.to_owned(), font, Color32::PLACEHOLDER);
+    text.size().x <= ui.available_width()
 }
 
 /// The slider along a path of stops. A recipe that is at none of them stands between the nearest.

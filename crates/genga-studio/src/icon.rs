@@ -51,6 +51,12 @@ pub(super) fn button(ui: &mut Ui, icon: Icon, name: &str) -> Response {
     response.on_hover_text(name)
 }
 
+/// Draws a cross.
+pub(super) fn cross(painter: &Painter, middle: Pos2, half: f32, stroke: Stroke) {
+    painter.line_segment([middle - vec2(half, half), middle + vec2(half, half)], stroke);
+    painter.line_segment([middle - vec2(half, -half), middle + vec2(half, -half)], stroke);
+}
+
 /// A button without a name. `ink` overrides the icon's colour.
 fn plain(ui: &mut Ui, icon: Icon, ink: Option<Color32>) -> Response {
     let is_small = matches!(icon, Icon::Cross | Icon::Back | Icon::Pin { .. });
@@ -92,10 +98,7 @@ fn draw(painter: &Painter, icon: Icon, rect: Rect, ink: Color32) {
             let x = flip(is_back, 0.92);
             painter.line_segment([at(x, 0.0), at(x, 1.0)], stroke);
         }
-        Icon::Cross => {
-            painter.line_segment([at(0.0, 0.0), at(1.0, 1.0)], stroke);
-            painter.line_segment([at(0.0, 1.0), at(1.0, 0.0)], stroke);
-        }
+        Icon::Cross => cross(painter, rect.center(), 0.5 * rect.width(), stroke),
         Icon::Pin { is_set } => {
             let (head, radius) = (at(0.5, 0.3), 0.3 * rect.width());
             painter.line_segment([at(0.5, 0.6), at(0.5, 1.05)], stroke);

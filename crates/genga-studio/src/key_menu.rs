@@ -13,8 +13,8 @@ use super::words::Words;
 use genga::keys::{Key, Origin};
 
 /// The menu of a key.
-pub(super) fn show(ui: &mut Ui, key: &Key, words: Words, commands: &mut Vec<Command>) {
-    for (name, correction) in choices(key, words) {
+pub(super) fn show(ui: &mut Ui, key: &Key, shown: &Shown<'_>, commands: &mut Vec<Command>) {
+    for (name, correction) in choices(key, shown) {
         if ui.button(name).clicked() {
             commands.push(Command::Correct(correction));
             ui.close();
@@ -31,8 +31,10 @@ pub(super) fn show_none(ui: &mut Ui, shown: &Shown<'_>, commands: &mut Vec<Comma
 }
 
 /// Actions on a key that need no further input.
-fn choices(key: &Key, words: Words) -> Vec<(&'static str, Correction)> {
-    let forbid = (words.say("Forbid", "禁止"), Correction::Forbid(key.clone()));
+fn choices(key: &Key, shown: &Shown<'_>) -> Vec<(&'static str, Correction)> {
+    let words = shown.words;
+    let place = shown.column().place_of(key);
+    let forbid = (words.say("Forbid", "禁止"), Correction::Forbid(key.clone(), place));
     let take_back = Correction::TakeBack(key.clone());
     match key.origin {
         Origin::Turn | Origin::Fill | Origin::Rest | Origin::Contact | Origin::Step => {
@@ -75,11 +77,13 @@ impl KeyPanel {
         let cell = shown.column().cell(shown.at);
         let Some(key) = shown.column().key(shown.at) else {
             self.wants_focus = false;
-            let what = match cell.genga {
-                Some(_) => words.say("End of the clip", "クリップの端"),
-                None => words.say("Inbetween", "中割り"),
-            };
-            ui.strong(what);
+            match cell.genga_number() {
+                Some(number) => {
+                    ui.strong(format!("{} {number}", words.say("Genga", "原画")));
+                    reason(ui, &why::sentence(&cell.drawing.why, words));
+                }
+                None => _ = ui.strong(words.say("Inbetween", "中割り")),
+            }
             show_none(ui, shown, commands);
             hold(ui, shown, commands);
             return;
@@ -87,14 +91,20 @@ impl KeyPanel {
         ui.horizontal(|ui| {
             let number = cell.genga_number().map_or_else(String::new, |number| number.to_string());
             ui.strong(format!("{} {number}", words.say("Genga", "原画")));
-            let frame = key.frame;
+            let (koma, frame) = (shown.column().clock.koma_from_frame(key.frame) + 1, key.frame);
             ui.weak(match words.is_japanese() {
-                true => format!("フレーム {frame}"),
-                false => format!("frame {frame}"),
+                true => format!("コマ {koma} · フレーム {frame}"),
+                false => format!("koma {koma} · frame {frame}"),
             });
         });
         reason(ui, &why::sentence(&cell.drawing.why, words));
-        ui.horizontal(|ui| show(ui, key, words, commands));
+        ui.horizontal(|ui| {
+            show(ui, key, shown, commands);
+            // The buttons before act on the drawing that stays; this one on the koma where the play head stands.
+            if shown.at != cell.koma {
+                show_none(ui, shown, commands);
+            }
+        });
         self.name(ui, key, words, commands);
         weight(ui, key, shown, commands);
         hold(ui, shown, commands);

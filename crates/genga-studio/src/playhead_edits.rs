@@ -27,7 +27,7 @@ impl Here<'_> {
         let key = column.key(self.at).cloned();
         Some(match (command, key) {
             (Command::ToggleKey, Some(key)) if self.is_here(&key) => match self.is_set(&key) {
-                false => Correction::Forbid(key),
+                false => Correction::Forbid(key.clone(), column.place_of(&key)),
                 true => Correction::TakeBack(key),
             },
             (Command::ToggleKey, _) => {

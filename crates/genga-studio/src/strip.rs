@@ -91,14 +91,15 @@ impl Strip {
             self.window.reveal(shown.at as f64);
         }
         let layout = Layout::new(rect, self.window.scale(inside));
-        let figured = choice::choose(&layout, shown, player.is_playing());
+        let hovered = self.hovered.as_ref().map(Passage::cell);
+        let figured = choice::choose(&layout, shown, player.is_playing(), hovered);
         self.hover(ui, &layout, &figured, response.dragged(), shown);
         self.hand.handle(&response, &layout, &figured, shown, commands);
         self.draw(ui, &layout, &figured, (shown, difference), (orbit, player));
         self.play(ui, &layout, shown, commands);
         name(&response, shown);
         response.context_menu(|ui| match &self.hand.asked {
-            Some(key) => key_menu::show(ui, key, shown.words, commands),
+            Some(key) => key_menu::show(ui, key, shown, commands),
             None => key_menu::show_none(ui, shown, commands),
         });
         ui.advance_cursor_after_rect(rect);

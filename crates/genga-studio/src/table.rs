@@ -181,7 +181,7 @@ impl Studio {
             let panel = Panel::bottom("strip").default_size(Strip::usual_height(window.y));
             let high = strip::HEIGHTS;
             let high = *high.start()..=(0.5 * window.y).clamp(*high.start(), *high.end());
-            let frame = Frame::NONE.inner_margin(Margin::symmetric(6, 2));
+            let frame = Frame::side_top_panel(ui.style()).inner_margin(Margin::symmetric(6, 2));
             panel.size_range(high).resizable(true).frame(frame).show(ui, |ui| {
                 let seen = (&shown, self.difference.as_ref());
                 let by = (&self.viewport.orbit, &self.player);

@@ -100,7 +100,7 @@ impl Timesheet {
                 ..WidgetInfo::labeled(Role::Canvas, true, name)
             });
             response.context_menu(|ui| match &self.hand.asked {
-                Some(key) => key_menu::show(ui, key, shown.words, commands),
+                Some(key) => key_menu::show(ui, key, shown, commands),
                 None => key_menu::show_none(ui, shown, commands),
             });
         });

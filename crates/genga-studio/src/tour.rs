@@ -30,7 +30,7 @@ const STEPS: [Step; 6] = [
     Step {
         english: "A figure too many: point at it, and forbid it with the cross over it.",
         japanese: "いらないポーズは、ポインターを置いて上の × で禁止する。",
-        asks_for: |command| matches!(command, Command::Correct(Correction::Forbid(_))),
+        asks_for: |command| matches!(command, Command::Correct(Correction::Forbid(..))),
     },
     Step {
         english: "A figure that must stay: point at it, and pin it with the pin over it.",

@@ -116,6 +116,22 @@ impl<'a> Shown<'a> {
         Frame(frame.clamp(clip.first().0, clip.last().0))
     }
 
+    /// Names the koma that shows a source frame, or the frame if frames are counted.
+    pub(super) fn named(&self, frame: Frame) -> String {
+        let number = self.number_of(frame);
+        match (self.counts_frames, self.words.is_japanese()) {
+            (false, false) => format!("koma {number}"),
+            (false, true) => format!("コマ{number}"),
+            (true, false) => format!("frame {number}"),
+            (true, true) => format!("フレーム{number}"),
+        }
+    }
+
+    /// The number alone.
+    pub(super) fn number_of(&self, frame: Frame) -> usize {
+        if self.counts_frames { frame.0 } else { self.column().clock.koma_from_frame(frame) + 1 }
+    }
+
     /// The source frame nearest to a koma, within the clip.
     pub(super) fn frame_of_koma(&self, koma: usize) -> Frame {
         self.frame(self.place(koma))

@@ -20,7 +20,7 @@ const FORMATS: (&str, &str) = (
 );
 /// What can be dropped on a page, which reads no FBX.
 const ON_A_PAGE: (&str, &str) = (
-    "BVH, glTF and GLB, VRM animation, ASF/AMC, VMD of MikuMikuDance. Of an FBX, export BVH or GLB first. Nothing leaves \
+    "BVH, glTF and GLB, VRM animation, ASF/AMC, VMD of MikuMikuDance. FBX: export it as BVH or GLB first. Nothing leaves \
      this computer.",
     "BVH、glTF・GLB、VRMA、ASF/AMC、MikuMikuDance の VMD。FBX は BVH か GLB に書き出してから。\
      ファイルはどこにも送られません。",

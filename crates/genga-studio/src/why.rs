@@ -32,7 +32,12 @@ pub(super) fn in_short(cell: &KeyedCell<'_>, words: Words) -> String {
         reasons.push(format!("{} {}", words.say("held", "止め"), cell.held));
     }
     if why.omitted_before > 0 {
-        reasons.push(format!("{} {}", words.say("left out", "抜いた中割"), why.omitted_before));
+        let out = why.omitted_before;
+        reasons.push(match (words.is_japanese(), out) {
+            (true, _) => format!("抜いた中割 {out}"),
+            (false, 1) => "1 inbetween out".into(),
+            (false, _) => format!("{out} inbetweens out"),
+        });
     }
     if reasons.is_empty() {
         reasons.extend(why.voters.first().map(ToString::to_string));

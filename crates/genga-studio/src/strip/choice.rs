@@ -8,14 +8,23 @@ use crate::view_state::Shown;
 const SET: f64 = 1e9;
 const STAYS: f64 = 1e6;
 
-/// Chooses the genga in view that have figures: indices among the cells of the column, in order.
-/// Unless it plays, the one at the play head is among them.
-pub(super) fn choose(layout: &Layout, shown: &Shown<'_>, is_playing: bool) -> Vec<usize> {
+/// Chooses the genga in view that have figures: indices among the cells of the column, in order. The one under the
+/// pointer is among them, and unless it plays that at the play head.
+pub(super) fn choose(
+    layout: &Layout,
+    shown: &Shown<'_>,
+    is_playing: bool,
+    hovered: Option<usize>,
+) -> Vec<usize> {
     let seen = layout.seen(shown);
     let cells = &shown.column().cells;
     let genga = seen.filter(|at| cells[*at].genga.is_some());
     let current = (!is_playing).then(|| shown.column().at(shown.at));
-    let worth = |at: usize| if current == Some(at) { f64::INFINITY } else { worth(&cells[at]) };
+    let worth = |at: usize| match Some(at) {
+        own if own == hovered => f64::INFINITY,
+        own if own == current => f64::MAX,
+        _ => worth(&cells[at]),
+    };
     let marks: Vec<(usize, f32, f64)> =
         genga.map(|at| (at, layout.x(cells[at].koma), worth(at))).collect();
     fitting(&marks, layout.wide)

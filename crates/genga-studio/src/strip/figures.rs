@@ -1,6 +1,6 @@
 //! Draws the figures of the strip, the ghosts of genga that went, and the passage that plays under the pointer.
 
-use egui::{Align2, FontId, Painter, Pos2, Rect, Stroke, Ui, pos2, vec2};
+use egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Ui, pos2, vec2};
 use glam::DVec3;
 
 use super::layout::Layout;
@@ -37,6 +37,11 @@ impl Passage {
         let cell = cell?;
         let same = before.filter(|before| before.cell == cell);
         Some(same.unwrap_or(Self { cell, since: now }))
+    }
+
+    /// Index of the genga under the pointer among the cells of the column.
+    pub(super) fn cell(&self) -> usize {
+        self.cell
     }
 
     /// Koma of the passage, the next genga included.
@@ -88,12 +93,12 @@ pub(super) fn draw(
         let pose = posing.koma(koma);
         draw_body(painter, &place.stage(x, &pose).draw(&pose), Inks::Sides, &shown.look);
         if changed.is_some_and(|changed| changed.came.binary_search(&cell.koma).is_ok()) {
-            plus(painter, layout.slot(x), shown);
+            mark(painter, layout.slot(x).left_top() + vec2(8.0, 8.0), "+", shown.look.wall, shown);
         }
     }
 }
 
-/// Draws the genga that went, as pale figures crossed out where they stood.
+/// Draws the genga that went, as pale figures where they stood.
 fn ghosts(
     painter: &Painter,
     layout: &Layout,
@@ -113,21 +118,15 @@ fn ghosts(
         let pose = posing.points(Source::At(gone.place));
         let ink = Inks::One(look.faint.gamma_multiply(0.55), 0.8);
         draw_body(painter, &place.stage(x, &pose).draw(&pose), ink, look);
-        cross(painter, pos2(x, layout.badges), 3.5, Stroke::new(1.8, look.faint));
+        mark(painter, layout.slot(x).right_top() + vec2(-8.0, 8.0), "−", look.faint, shown);
     }
 }
 
-/// Draws a cross.
-pub(super) fn cross(painter: &Painter, middle: Pos2, half: f32, stroke: Stroke) {
-    painter.line_segment([middle - vec2(half, half), middle + vec2(half, half)], stroke);
-    painter.line_segment([middle - vec2(half, -half), middle + vec2(half, -half)], stroke);
-}
-
-/// Marks a genga that came.
-fn plus(painter: &Painter, slot: Rect, shown: &Shown<'_>) {
-    let (middle, look) = (slot.left_top() + vec2(8.0, 8.0), &shown.look);
-    painter.circle_filled(middle, 6.5, look.wall);
-    painter.text(middle, Align2::CENTER_CENTER, "+", FontId::proportional(12.0), look.paper);
+/// Marks a genga that came or went.
+fn mark(painter: &Painter, middle: Pos2, sign: &str, color: Color32, shown: &Shown<'_>) {
+    painter.circle_filled(middle, 6.5, color);
+    let font = FontId::proportional(12.0);
+    painter.text(middle, Align2::CENTER_CENTER, sign, font, shown.look.paper);
 }
 
 /// The stage of one figure after another.
@@ -173,7 +172,8 @@ pub(super) fn buttons(
         true => (words.say("Unpin", "固定を解除"), Correction::TakeBack(key.clone())),
         false => (words.say("Pin", "固定"), Correction::PinKey(key.clone())),
     };
-    let forbid = (words.say("Forbid", "禁止"), Correction::Forbid(key.clone()));
+    let place = shown.column().place_of(key);
+    let forbid = (words.say("Forbid", "禁止"), Correction::Forbid(key.clone(), place));
     let corner = pos2(slot.center().x - BUTTON - 1.0, slot.min.y - 2.0);
     for (at, (icon, (name, correction))) in
         [(Icon::Pin { is_set }, pin), (Icon::Cross, forbid)].into_iter().enumerate()

@@ -83,9 +83,16 @@ impl Layout {
         if at.y > self.badges + 0.5 * BADGES || at.y < self.figures.min.y {
             return None;
         }
-        let away = |own: &usize| (self.x(shown.column().cells[*own].koma) - at.x).abs();
-        let nearest = figured.iter().copied().min_by(|a, b| away(a).total_cmp(&away(b)))?;
-        (away(&nearest) <= 0.5 * self.wide).then_some(nearest)
+        let cells = &shown.column().cells;
+        let away = |own: &usize| (self.x(cells[*own].koma) - at.x).abs();
+        let nearest = |all: &mut dyn Iterator<Item = usize>, room: f32| {
+            all.min_by(|a, b| away(a).total_cmp(&away(b))).filter(|own| away(own) <= room)
+        };
+        // Each genga has a circle or a dot, those that have no figure too.
+        let mut genga = self.seen(shown).filter(|own| cells[*own].genga.is_some());
+        let circle =
+            (at.y > self.figures.max.y).then(|| nearest(&mut genga, 0.5 * BADGES)).flatten();
+        circle.or_else(|| nearest(&mut figured.iter().copied(), 0.5 * self.wide))
     }
 
     /// The drawing whose end is at a position of the track. The last one ends with the sheet and cannot be dragged.

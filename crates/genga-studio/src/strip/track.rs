@@ -3,8 +3,8 @@
 
 use egui::{Align2, FontId, Painter, Pos2, Rect, Stroke, pos2, vec2};
 
-use super::figures::cross;
 use super::layout::Layout;
+use crate::icon::cross;
 use crate::label_culling::Room;
 use crate::timesheet::badge;
 use crate::view_state::Shown;
@@ -122,7 +122,7 @@ fn drawings(painter: &Painter, layout: &Layout, shown: &Shown<'_>) {
     }
 }
 
-/// Draws a cross on every koma that may have no genga.
+/// Draws a cross where no genga may stand, and a line as long as the range.
 fn forbidden(painter: &Painter, layout: &Layout, shown: &Shown<'_>) {
     let (edits, column) = (&shown.wanted.edits, shown.column());
     let own = edits.layers.get(column.name).map(|own| &own.forbidden);
@@ -130,12 +130,14 @@ fn forbidden(painter: &Painter, layout: &Layout, shown: &Shown<'_>) {
     for range in edits.forbidden.iter().chain(own.into_iter().flatten()) {
         let last = shown.frame(range.past.0 as f64 - 1.0);
         let [from, to] = [range.from, last].map(|frame| column.clock.koma_from_frame(frame));
-        for koma in from..=to.min(column.length.saturating_sub(1)) {
-            // Above the figures, where no number covers it.
-            let at = pos2(layout.x(koma) + 0.5 * layout.koma(), layout.figures.min.y + 6.0);
-            if layout.rect.contains(at) && room.take(at.x, 8.0) {
-                cross(painter, at, 3.5, Stroke::new(1.8, shown.look.genga));
-            }
+        let [left, right] = [from, to.min(column.length.saturating_sub(1))]
+            .map(|koma| layout.x(koma) + 0.5 * layout.koma());
+        // Above the figures, where no number covers it.
+        let at = pos2(0.5 * (left + right), layout.figures.min.y + 6.0);
+        let ink = shown.look.genga;
+        painter.hline(left..=right, at.y, Stroke::new(1.0, ink.gamma_multiply(0.5)));
+        if layout.rect.contains(at) && room.take(at.x, 8.0) {
+            cross(painter, at, 3.5, Stroke::new(1.8, ink));
         }
     }
 }

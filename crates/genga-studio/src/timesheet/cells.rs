@@ -7,6 +7,7 @@ use egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Stroke, Ui, pos2, vec2}
 use super::paper::{KOMA, Paper};
 use super::speech::{self, SpeechHand};
 use crate::column::{Column, KeyedCell};
+use crate::icon::cross;
 use crate::label_culling::Room;
 use crate::view_state::Shown;
 use crate::why;
@@ -167,18 +168,19 @@ impl Strip<'_> {
         }
     }
 
-    /// Draws a cross on every koma that may have no key.
+    /// Draws a cross where no key may stand, and a line as long as the range.
     fn forbidden(&self, range: Forbidden, rows: &Range<usize>) {
         let clock = &self.column.clock;
         let last = self.shown.frame(range.past.0 as f64 - 1.0);
         let [from, to] = [range.from, last].map(|frame| clock.koma_from_frame(frame));
-        for koma in from.max(rows.start)..(to + 1).min(rows.end) {
-            let at = self.middle(koma) - vec2(13.0, 0.0);
-            let half = 3.0_f32.min(0.4 * self.paper.row);
-            let stroke = Stroke::new(1.6, self.shown.look.genga);
-            self.painter.line_segment([at - vec2(half, half), at + vec2(half, half)], stroke);
-            self.painter.line_segment([at - vec2(half, -half), at + vec2(half, -half)], stroke);
+        if to < rows.start || from >= rows.end {
+            return;
         }
+        let [top, bottom] = [from, to].map(|koma| self.middle(koma) - vec2(13.0, 0.0));
+        let ink = self.shown.look.genga;
+        self.painter.vline(top.x, top.y..=bottom.y, Stroke::new(1.0, ink.gamma_multiply(0.5)));
+        let half = 3.0_f32.min(0.4 * self.paper.row);
+        cross(&self.painter, top.lerp(bottom, 0.5), half, Stroke::new(1.6, ink));
     }
 }
 
