@@ -162,8 +162,8 @@ fn under_the_pointer_a_figure_plays_to_the_next_genga_and_the_play_head_stays() 
     table.harness.step();
     table.harness.step();
     let still = table.drawn_on_strip();
-    // A step of the harness is a quarter of a second.
-    table.harness.run_steps(2);
+    // A step of the harness is a quarter of a second, and the figure stands still for 0.8 s first.
+    table.harness.run_steps(3);
     assert_ne!(table.drawn_on_strip(), still);
     assert_eq!(table.strip_says(), "genga 1, koma 1");
     table.harness.remove_cursor();

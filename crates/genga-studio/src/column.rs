@@ -89,11 +89,10 @@ impl<'a> Column<'a> {
             || self.keys().iter().filter(|other| other.frame != key.frame).map(|other| other.frame);
         let before = others().filter(|other| *other < found).max();
         let after = others().filter(|other| *other > found).min();
-        let first = Frame(self.clock.first.0);
-        let last = self.clock.place_from_koma(self.length);
-        let last = Frame(last.max(0.0).ceil() as usize);
-        let koma = self.clock.frames_in_koma();
-        Forbidden::between(before.unwrap_or(first), found, after.unwrap_or(last), koma)
+        let clock = &self.clock;
+        let end = Frame(clock.place_from_koma(self.length).ceil() as usize);
+        let (before, after) = (before.unwrap_or(clock.first), after.unwrap_or(end));
+        Forbidden::between(before, found, after, clock.frames_in_koma())
     }
 
     /// The spacing of the column along the sheet; `last` is the clip's last frame.
@@ -143,6 +142,13 @@ impl<'a> Column<'a> {
             cell.key.is_some_and(|key| self.clock.koma_from_frame(key.frame) == koma)
         };
         self.cells.iter().find(stands_here).and_then(|cell| cell.key).or(cell.key)
+    }
+
+    /// The koma on which the drawing of a key's frame begins, else the koma nearest to a frame.
+    pub(super) fn koma_of(&self, frame: Frame) -> usize {
+        let is_it = |cell: &&KeyedCell<'_>| cell.key.is_some_and(|key| key.frame == frame);
+        let own = self.cells.iter().find(is_it);
+        own.map_or_else(|| self.clock.koma_from_frame(frame), |cell| cell.koma)
     }
 
     /// The koma at which the drawing of a place began before anything was left out.

@@ -1,5 +1,6 @@
 //! The list of corrections (修正の一覧), each with a link to its place and a button to take it back.
 
+use egui::style::ScrollStyle;
 use egui::{CollapsingHeader, Panel, RichText, ScrollArea, Ui};
 
 use super::column::KeyedCell;
@@ -24,6 +25,8 @@ pub(super) fn below(ui: &mut Ui, shown: &Shown<'_>, commands: &mut Vec<Command>)
         return;
     }
     Panel::bottom("corrections").exact_size(HIGH).show(ui, |ui| {
+        // A bar that is always there says that there are more.
+        ui.spacing_mut().scroll = ScrollStyle::solid();
         ScrollArea::vertical().id_salt("corrections").auto_shrink(false).show(ui, |ui| {
             show(ui, shown, commands);
             focus::bring_into_view(ui);
@@ -181,7 +184,7 @@ impl Row<'_> {
             if is_clicked && let Some(frame) = self.at {
                 let column = shown.columns.iter().position(|own| Some(own.name) == self.column);
                 commands.extend(column.and_then(|column| shown.choose(column)));
-                commands.push(Command::Go(shown.column().clock.koma_from_frame(frame)));
+                commands.push(Command::Go(shown.column().koma_of(frame)));
             }
         });
     }

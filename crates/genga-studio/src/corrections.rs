@@ -127,6 +127,8 @@ impl Of<'_> {
             return;
         }
         let forbidden = self.edits.forbidden_of(self.column);
+        // What lies in it is banned by it.
+        forbidden.retain(|other| other.from < range.from || range.past < other.past);
         if !forbidden.contains(&range) {
             forbidden.push(range);
             forbidden.sort_by_key(|range| range.from);

@@ -32,10 +32,12 @@ static DESTINATIONS: [Destination; 8] = [
         formats: &["xdts", "images"],
         writes: "two timesheets (XDTS), numbered pictures",
         writes_japanese: "タイムシート2枚 (XDTS)、番号付きの絵",
-        next: "In Clip Studio Paint: File, Import, Timesheet; choose the _genga_ts.xdts, or the _douga_ts.xdts with the \
-               inbetweens too. The picture of cel 1 is images/A_0001.png: draw over it.",
-        next_japanese: "CLIP STUDIO PAINT の「ファイル」→「読み込み」→「タイムシート情報」で _genga_ts.xdts (中割りも入れるなら \
-                        _douga_ts.xdts) を選ぶ。セル1の絵は images/A_0001.png。その上に描く。",
+        next: "In Clip Studio Paint EX: File, Import, Timesheet; choose the _douga_ts.xdts. Its numbers are those of the \
+               pictures in images: cel 9 is A_0009.png. The _genga_ts.xdts has the genga alone, with numbers of their \
+               own; keys.csv says which pictures they are.",
+        next_japanese: "CLIP STUDIO PAINT EX の「ファイル」→「読み込み」→「タイムシート情報」で _douga_ts.xdts を選ぶ。番号は \
+                        images の絵と同じで、セル9は A_0009.png。_genga_ts.xdts は原画だけの番号で、どの絵かは keys.csv に\
+                        ある。",
     },
     Destination {
         english: "OpenToonz",

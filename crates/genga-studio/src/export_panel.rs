@@ -12,7 +12,7 @@ use super::host::Host;
 use super::knobs;
 use super::words::Words;
 use genga::recipe::Knob;
-use genga_files::FORMATS;
+use genga_files::{FORMATS, HAS_PIXELS};
 use genga_plot::Camera;
 
 /// Sections of the settings for paper, and for all figures.
@@ -73,6 +73,10 @@ impl OrderPanel {
             ScrollArea::vertical().id_salt("order").max_height(room).min_scrolled_height(room);
         scroll.show(ui, |ui| {
             destinations::show(ui, order, words);
+            if let Some(destination) = destinations::of(order) {
+                let (next, japanese) = destination.next();
+                ui.label(RichText::new(words.say(next, japanese)).size(12.0).weak());
+            }
             let title = RichText::new(words.say("All formats", "すべての形式")).strong();
             let header = CollapsingHeader::new(title).id_salt("all formats");
             // An order for no destination is seen where it was made.
@@ -167,8 +171,8 @@ fn settings(ui: &mut Ui, order: &mut Order, is_wanted: impl Fn(&str) -> bool, wo
             Grid::new(section).num_columns(2 * columns).spacing([14.0, 4.0]).show(ui, |ui| {
                 let own = values.iter().filter(|(knob, _)| {
                     // The camera is asked once for all figures.
-                    let is_asked = knob.path().1 != "camera"
-                        && (genga_files::HAS_PIXELS || knob.path().1 != "png");
+                    let is_asked =
+                        knob.path().1 != "camera" && (HAS_PIXELS || knob.path().1 != "png");
                     knob.path().0 == Some(section) && is_asked
                 });
                 for (at, (knob, value)) in own.enumerate() {

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use genga_files::{FORMATS, Settings};
+use genga_files::{FORMATS, HAS_PIXELS, Settings};
 use genga_plot::Camera;
 
 /// Cameras on offer, with their English and Japanese labels.
@@ -45,7 +45,9 @@ impl Order {
         let words: Vec<&str> = lines.next().unwrap_or_default().split(' ').collect();
         let camera = lines.next().unwrap_or_default();
         let camera = CAMERAS.iter().find(|(_, word, _)| *word == camera);
-        let asked = Settings::from_lines(text);
+        let mut asked = Settings::from_lines(text);
+        // A build without pixels does not ask for this, so nobody could take it back.
+        asked.figures.png &= HAS_PIXELS;
         let formats = FORMATS.iter().map(|format| format.name);
         Self {
             asked,
@@ -72,7 +74,7 @@ mod tests {
     fn an_order_is_remembered_without_its_folder() {
         let mut order = Order::remembered("\nside\n", PathBuf::from("/out/kick"));
         order.asked.set("xsheet.title", "空 の旅").unwrap();
-        order.asked.set("figures.png", "true").unwrap();
+        order.asked.set("figures.body", "sticks").unwrap();
         order.toggle("xsheet", true);
         order.toggle("xdts", true);
         order.toggle("strip", true);

@@ -91,7 +91,7 @@ impl Exporting {
         let folder = self.folder.display();
         match self.errand.look() {
             Look::Waiting => None,
-            Look::Done(files) => Some(files.map(|files| format!("{folder}: {}", files.join(" ")))),
+            Look::Done(files) => Some(files.map(|files| format!("{folder}: {}", listed(&files)))),
             Look::BrokeOff => Some(Err(format!("{folder}: writing was aborted"))),
         }
     }
@@ -114,5 +114,31 @@ impl Exporting {
                 commands.push(Command::StopExport);
             }
         });
+    }
+}
+/// Lists files by name, those of a folder by their number.
+fn listed(files: &[String]) -> String {
+    let mut words: Vec<String> = Vec::new();
+    for some in files.chunk_by(|a, b| folder(a) == folder(b)) {
+        match folder(&some[0]) {
+            Some(name) => words.push(format!("{name}/ ({})", some.len())),
+            None => words.extend_from_slice(some),
+        }
+    }
+    words.join(" ")
+}
+
+fn folder(file: &str) -> Option<&str> {
+    file.split_once('/').map(|(folder, _)| folder)
+}
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn files_of_a_folder_are_counted_and_others_are_named() {
+        let files = ["sheet.json", "images/A_0001.png", "images/A_0002.png", "a.xdts"];
+        let files = files.map(String::from);
+        assert_eq!(listed(&files), "sheet.json images/ (2) a.xdts");
     }
 }

@@ -25,9 +25,13 @@ pub(super) fn show(ui: &mut Ui, key: &Key, shown: &Shown<'_>, commands: &mut Vec
 /// The menu of a koma without a key.
 pub(super) fn show_none(ui: &mut Ui, shown: &Shown<'_>, commands: &mut Vec<Command>) {
     if ui.button(shown.words.say("Pin here", "ここを固定")).clicked() {
-        commands.push(Command::Correct(Correction::Pin(shown.frame_of_koma(shown.at))));
+        pin_here(shown, commands);
         ui.close();
     }
+}
+
+fn pin_here(shown: &Shown<'_>, commands: &mut Vec<Command>) {
+    commands.push(Command::Correct(Correction::Pin(shown.frame_of_koma(shown.at))));
 }
 
 /// Actions on a key that need no further input.
@@ -91,7 +95,7 @@ impl KeyPanel {
         ui.horizontal(|ui| {
             let number = cell.genga_number().map_or_else(String::new, |number| number.to_string());
             ui.strong(format!("{} {number}", words.say("Genga", "原画")));
-            let (koma, frame) = (shown.column().clock.koma_from_frame(key.frame) + 1, key.frame);
+            let (koma, frame) = (shown.column().koma_of(key.frame) + 1, key.frame);
             ui.weak(match words.is_japanese() {
                 true => format!("コマ {koma} · フレーム {frame}"),
                 false => format!("koma {koma} · frame {frame}"),
@@ -101,8 +105,13 @@ impl KeyPanel {
         ui.horizontal(|ui| {
             show(ui, key, shown, commands);
             // The buttons before act on the drawing that stays; this one on the koma where the play head stands.
-            if shown.at != cell.koma {
-                show_none(ui, shown, commands);
+            let here = shown.at + 1;
+            let name = match words.is_japanese() {
+                true => format!("コマ{here}を固定"),
+                false => format!("Pin koma {here}"),
+            };
+            if shown.at != cell.koma && ui.button(name).clicked() {
+                pin_here(shown, commands);
             }
         });
         self.name(ui, key, words, commands);

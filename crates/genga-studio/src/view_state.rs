@@ -116,7 +116,7 @@ impl<'a> Shown<'a> {
         Frame(frame.clamp(clip.first().0, clip.last().0))
     }
 
-    /// Names the koma that shows a source frame, or the frame if frames are counted.
+    /// Names the koma on which a source frame is shown, or the frame if frames are counted.
     pub(super) fn named(&self, frame: Frame) -> String {
         let number = self.number_of(frame);
         match (self.counts_frames, self.words.is_japanese()) {
@@ -129,7 +129,7 @@ impl<'a> Shown<'a> {
 
     /// The number alone.
     pub(super) fn number_of(&self, frame: Frame) -> usize {
-        if self.counts_frames { frame.0 } else { self.column().clock.koma_from_frame(frame) + 1 }
+        if self.counts_frames { frame.0 } else { self.column().koma_of(frame) + 1 }
     }
 
     /// The source frame nearest to a koma, within the clip.

@@ -18,11 +18,11 @@ const FORMATS: (&str, &str) = (
     "BVH, FBX, glTF and GLB, VRM animation, ASF/AMC, VMD of MikuMikuDance, or a folder of takes",
     "BVH、FBX、glTF・GLB、VRMA、ASF/AMC、MikuMikuDance の VMD、テイクのフォルダー",
 );
-/// What can be dropped on a page, which reads no FBX.
+/// What can be dropped on a page, which reads one file at a time and no FBX.
 const ON_A_PAGE: (&str, &str) = (
-    "BVH, glTF and GLB, VRM animation, ASF/AMC, VMD of MikuMikuDance. FBX: export it as BVH or GLB first. Nothing leaves \
+    "BVH, glTF and GLB, VRM animation, VMD of MikuMikuDance. FBX or AMC: export it as BVH or GLB first. Nothing leaves \
      this computer.",
-    "BVH、glTF・GLB、VRMA、ASF/AMC、MikuMikuDance の VMD。FBX は BVH か GLB に書き出してから。\
+    "BVH、glTF・GLB、VRMA、MikuMikuDance の VMD。FBX と AMC は BVH か GLB に書き出してから。\
      ファイルはどこにも送られません。",
 );
 

@@ -79,6 +79,13 @@ await other.place("書き出す");
 await other.picture("order-ja.png");
 const [again] = await Promise.all([other.page.waitForEvent("download"), other.press("Enter")]);
 await again.saveAs("again.zip");
+
+// For a program of drawings it gets numbered pictures too.
+await other.press("Escape");
+await other.click("書き出し");
+await other.click("クリスタ");
+const [pictured] = await Promise.all([other.page.waitForEvent("download", { timeout: PATIENCE }), other.click("書き出す")]);
+await pictured.saveAs("pictured.zip");
 assert.deepEqual(other.asked.filter(elsewhere), [file]);
 assert.deepEqual(other.said, []);
 await browser.close();

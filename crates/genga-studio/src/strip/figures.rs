@@ -16,8 +16,9 @@ use genga_plot::parts::{Posing, Stage};
 
 /// Height of a view in heights of the body, so that arms and jumps have room.
 const TALL: f64 = 1.2;
-/// Seconds until the passage under the pointer begins to play, and koma that it rests at its end.
-const DELAY: f64 = 0.25;
+/// Seconds for which the genga under the pointer stands still before its passage plays, so that it can be compared, and
+/// koma that the passage rests at its end.
+const STILL: f64 = 0.8;
 const REST: usize = 8;
 /// Side of a button on a figure, in points.
 const BUTTON: f32 = 16.0;
@@ -55,15 +56,16 @@ impl Passage {
     /// The koma to be shown. `None` while it rests at its beginning.
     fn at(&self, now: f64, shown: &Shown<'_>) -> Option<usize> {
         let (koma, rate) = (self.koma(shown), shown.column().clock.koma_rate);
-        let gone = (now - self.since - DELAY) * rate;
-        let step = (gone >= 0.0).then(|| gone as usize % (koma.len() + REST))?;
-        Some((koma.start + step).min(koma.end - 1))
+        let round = STILL + (koma.len() + REST) as f64 / rate;
+        let gone = ((now - self.since) % round - STILL) * rate;
+        (gone >= 0.0).then(|| (koma.start + gone as usize).min(koma.end - 1))
     }
 
     /// Seconds until the next koma. `None` if nothing moves.
     pub(super) fn wait(&self, now: f64, shown: &Shown<'_>) -> Option<f32> {
         let rate = shown.column().clock.koma_rate;
-        let gone = (now - self.since - DELAY) * rate;
+        let round = STILL + (self.koma(shown).len() + REST) as f64 / rate;
+        let gone = ((now - self.since) % round - STILL) * rate;
         let is_moving = self.koma(shown).len() > 1;
         is_moving
             .then(|| if gone < 0.0 { -gone / rate } else { (1.0 - gone.fract()) / rate } as f32)

@@ -180,7 +180,7 @@ impl Strip<'_> {
         let ink = self.shown.look.genga;
         self.painter.vline(top.x, top.y..=bottom.y, Stroke::new(1.0, ink.gamma_multiply(0.5)));
         let half = 3.0_f32.min(0.4 * self.paper.row);
-        cross(&self.painter, top.lerp(bottom, 0.5), half, Stroke::new(1.6, ink));
+        cross(self.painter, top.lerp(bottom, 0.5), half, Stroke::new(1.6, ink));
     }
 }
 
