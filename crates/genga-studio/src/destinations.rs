@@ -29,22 +29,22 @@ static DESTINATIONS: [Destination; 8] = [
     Destination {
         english: "Clip Studio",
         japanese: "クリスタ",
-        formats: &["xdts", "images"],
-        writes: "two timesheets (XDTS), numbered pictures",
-        writes_japanese: "タイムシート2枚 (XDTS)、番号付きの絵",
-        next: "In Clip Studio Paint EX: File, Import, Timesheet; choose the _douga_ts.xdts. Its numbers are those of the \
-               pictures in images: cel 9 is A_0009.png. The _genga_ts.xdts has the genga alone, with numbers of their \
-               own; keys.csv says which pictures they are.",
-        next_japanese: "CLIP STUDIO PAINT EX の「ファイル」→「読み込み」→「タイムシート情報」で _douga_ts.xdts を選ぶ。番号は \
-                        images の絵と同じで、セル9は A_0009.png。_genga_ts.xdts は原画だけの番号で、どの絵かは keys.csv に\
-                        ある。",
+        formats: &["cut"],
+        writes: "a cut folder: timesheets (XDTS), numbered pictures",
+        writes_japanese: "カット袋: タイムシート (XDTS) と番号付きの絵",
+        next: "In Clip Studio Paint EX: put the pictures of genga/A into an animation folder A as its cels, genga 9 is \
+               A_0009.png. Then File, Import, Timesheet, and choose the _genga_ts.xdts. The folder douga and the \
+               _douga_ts.xdts are the same with the inbetweens, numbered anew.",
+        next_japanese: "CLIP STUDIO PAINT EX でアニメーションフォルダー A を作り、genga/A の絵をセルとして入れる (原画9は \
+                        A_0009.png)。次に「ファイル」→「読み込み」→「タイムシート情報」で _genga_ts.xdts を選ぶ。中割りも\
+                        入れるなら、動画の番号の付いた douga/A と _douga_ts.xdts を使う。",
     },
     Destination {
         english: "OpenToonz",
         japanese: "OpenToonz",
         formats: &["cut"],
-        writes: "a cut folder: timesheets and pictures",
-        writes_japanese: "カット袋: タイムシートと絵",
+        writes: "a cut folder: timesheets (XDTS), numbered pictures",
+        writes_japanese: "カット袋: タイムシート (XDTS) と番号付きの絵",
         next: "In OpenToonz: File, Load Level for the pictures of the cut folder, File, Import, Timesheet for its XDTS.",
         next_japanese: "OpenToonz でカット袋の絵をレベルとして読み込み、XDTS のタイムシートを読み込む。",
     },
@@ -63,7 +63,7 @@ static DESTINATIONS: [Destination; 8] = [
         japanese: "Blender",
         formats: &["glb"],
         writes: "the sheet for the extension, stepped motion (GLB)",
-        writes_japanese: "アドオン用のシート、段付きの動き (GLB)",
+        writes_japanese: "アドオン用のシート、コマ打ちした動き (GLB)",
         next: "In Blender: with genga's extension put sheet.json onto the armature, or import limited.glb.",
         next_japanese: "Blender で genga のアドオンを使って sheet.json をアーマチュアに適用するか、limited.glb を読み込む。",
     },
@@ -90,7 +90,7 @@ static DESTINATIONS: [Destination; 8] = [
         japanese: "ゲームエンジン",
         formats: &["glb", "keys-glb"],
         writes: "stepped motion, and few keys with curves (GLB)",
-        writes_japanese: "段付きの動きと、カーブのキー (GLB)",
+        writes_japanese: "コマ打ちした動きと、カーブのキー (GLB)",
         next: "Import limited.glb; its steps stay without any smoothing.",
         next_japanese: "limited.glb を読み込む。補間せずにそのまま再生する。",
     },
@@ -128,9 +128,11 @@ impl Destination {
     }
 }
 
-/// The destination that an order is for. `None` if it asks for formats of its own.
+/// The destination that an order is for: of those with its formats the one that was chosen. `None` if it asks for formats
+/// of its own.
 pub(super) fn of(order: &Order) -> Option<&'static Destination> {
-    DESTINATIONS.iter().find(|destination| destination.is_of(order))
+    let fitting = || DESTINATIONS.iter().filter(|destination| destination.is_of(order));
+    fitting().find(|destination| destination.english == order.to).or_else(|| fitting().next())
 }
 
 /// Shows the cards, in as many columns as fit. A click orders what its destination needs.
@@ -141,8 +143,10 @@ pub(super) fn show(ui: &mut Ui, order: &mut Order, words: Words) {
         let all = DESTINATIONS.iter().filter(|own| !own.ordered().is_empty());
         for (at, destination) in all.enumerate() {
             let name = words.say(destination.english, destination.japanese);
-            if card(ui, (name, destination.writes(words)), destination.is_of(order)).clicked() {
+            let is_on = of(order) == Some(destination);
+            if card(ui, (name, destination.writes(words)), is_on).clicked() {
                 order.formats = destination.ordered();
+                order.to = destination.english.to_owned();
             }
             if at % columns == columns - 1 {
                 ui.end_row();
@@ -178,14 +182,17 @@ mod tests {
     use super::*;
 
     #[test]
-    fn each_destination_is_told_from_the_others_by_its_formats() {
+    fn each_destination_is_told_from_the_others() {
         // A build without pictures cannot write for all.
         for destination in DESTINATIONS.iter().filter(|own| !own.ordered().is_empty()) {
             let mut order = Order::remembered("\n\n", PathBuf::new());
             assert_eq!(of(&order), None, "nothing is for nobody");
             order.formats = destination.ordered();
+            order.to = destination.english.to_owned();
             let has_all = order.formats.len() == destination.formats.len();
             assert!(!has_all || of(&order) == Some(destination), "{}", destination.english);
+            order.to = String::new();
+            assert!(!has_all || of(&order).is_some(), "an order of an earlier version");
             order.toggle("sts", true);
             assert_eq!(of(&order), None, "with more it is an order of its own");
         }

@@ -143,8 +143,11 @@ impl OrderPanel {
         if ui.button(words.say("Cancel", "やめる")).clicked() {
             commands.push(Command::Dismiss);
         }
-        let all = words.say("sheet, tables, figures, recipe", "シート、表、図、レシピ");
+        let all = words.say("sheet.json, tables, figures, recipe", "sheet.json、表、図、レシピ");
         ui.weak(match destinations::of(order) {
+            Some(destination) if words.is_japanese() => {
+                format!("{}、ほかに{all}", destination.writes(words))
+            }
             Some(destination) => format!("{}; {all}", destination.writes(words)),
             None => all.to_owned(),
         });

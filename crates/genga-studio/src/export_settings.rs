@@ -22,7 +22,12 @@ pub(super) struct Order {
     /// Settings of the formats, apart from the camera.
     pub(super) asked: Settings,
     pub(super) folder: PathBuf,
+    /// Name of the destination that was chosen. Empty for formats of its own.
+    pub(super) to: String,
 }
+
+/// What stands before the destination in a remembered order.
+const TO: &str = "to ";
 
 impl Order {
     /// All settings of the formats, camera included.
@@ -36,7 +41,7 @@ impl Order {
     pub(super) fn text(&self) -> String {
         let camera = CAMERAS.iter().find(|(camera, ..)| *camera == self.camera);
         let camera = camera.map_or("", |(_, word, _)| *word);
-        format!("{}\n{camera}\n{}", self.formats.join(" "), self.asked.lines())
+        format!("{}\n{camera}\n{TO}{}\n{}", self.formats.join(" "), self.to, self.asked.lines())
     }
 
     /// Reads a remembered order, and sets its folder. Unknown names are skipped.
@@ -44,6 +49,7 @@ impl Order {
         let mut lines = text.lines();
         let words: Vec<&str> = lines.next().unwrap_or_default().split(' ').collect();
         let camera = lines.next().unwrap_or_default();
+        let to = lines.find_map(|line| line.strip_prefix(TO)).unwrap_or_default();
         let camera = CAMERAS.iter().find(|(_, word, _)| *word == camera);
         let mut asked = Settings::from_lines(text);
         // A build without pixels does not ask for this, so nobody could take it back.
@@ -54,6 +60,7 @@ impl Order {
             formats: formats.filter(|name| words.contains(name)).collect(),
             camera: camera.map_or(Camera::Auto, |(camera, ..)| *camera),
             folder,
+            to: to.to_owned(),
         }
     }
 
@@ -73,6 +80,7 @@ mod tests {
     #[test]
     fn an_order_is_remembered_without_its_folder() {
         let mut order = Order::remembered("\nside\n", PathBuf::from("/out/kick"));
+        order.to = "OpenToonz".into();
         order.asked.set("xsheet.title", "空 の旅").unwrap();
         order.asked.set("figures.body", "sticks").unwrap();
         order.toggle("xsheet", true);

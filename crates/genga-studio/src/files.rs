@@ -74,6 +74,7 @@ impl Studio {
         let (Some(take), None) = (&self.take, &self.exporting) else { return };
         let folder = self.export_folder(take);
         let order = Order::remembered(&self.desk.noted(EXPORT).unwrap_or_default(), folder);
+        self.player.stop();
         self.order.ask(order, &*self.desk);
     }
 

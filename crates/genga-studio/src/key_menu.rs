@@ -160,7 +160,7 @@ fn reason(ui: &mut Ui, text: &str) {
 /// Shows the spacing weight from this key on.
 fn weight(ui: &mut Ui, key: &Key, shown: &Shown<'_>, commands: &mut Vec<Command>) {
     let words = shown.words;
-    let label = words.say("Own spacing weight", "この原画の詰め");
+    let label = words.say("Own spacing weight", "この原画だけの詰め");
     ui.horizontal(|ui| {
         let mut is_own = key.weight.is_some();
         if ui.checkbox(&mut is_own, label).changed() {

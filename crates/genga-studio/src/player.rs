@@ -49,9 +49,14 @@ impl Player {
         self.playing = self.playing.map(|_| (now, self.at));
     }
 
+    /// Stops playback.
+    pub(super) fn stop(&mut self) {
+        self.playing = None;
+    }
+
     /// Stops and goes to a koma.
     pub(super) fn stop_at(&mut self, koma: usize, length: usize) {
-        self.playing = None;
+        self.stop();
         self.go(koma, length, 0.0);
     }
 

@@ -239,7 +239,7 @@ fn standing(seen: Seen, shown: &Shown<'_>) -> String {
     let (drawing, since, held) = (cell.number(), shown.at - cell.koma + 1, cell.held);
     let name = if shown.columns.len() > 1 { format!("{} · ", column.name) } else { String::new() };
     match words.is_japanese() {
-        true => format!("{name}動画 {drawing} · {number} · {since}/{held}コマ目"),
+        true => format!("{name}動画 {drawing} · {number} · {held}コマ中{since}コマ目"),
         false => format!("{name}drawing {drawing} · {number} · koma {since} of {held}"),
     }
 }
