@@ -10,6 +10,7 @@ use super::export_settings::{CAMERAS, Order};
 use super::focus::{self, Part};
 use super::host::Host;
 use super::knobs;
+use super::notice;
 use super::words::Words;
 use genga::recipe::Knob;
 use genga_files::{FORMATS, HAS_PIXELS};
@@ -19,8 +20,8 @@ use genga_plot::Camera;
 const PAPER: &str = "xsheet";
 const FIGURES: &str = "figures";
 
-/// Height of everything above and below the formats, and the least height of the formats, in points.
-const ROOM: f32 = 210.0;
+/// Height of everything above and below the formats in the panel, and the least height of the formats, in points.
+const ROOM: f32 = 152.0;
 const LEAST_ROOM: f32 = 120.0;
 /// Width of the panel from which settings stand in two columns, in points.
 const WIDE: f32 = 600.0;
@@ -66,7 +67,8 @@ impl OrderPanel {
     ) {
         let Some(order) = &mut self.order else { return };
         ui.strong(words.say("Export", "書き出し"));
-        let room = (ui.ctx().content_rect().height() - ROOM).max(LEAST_ROOM);
+        let window = ui.ctx().content_rect().size();
+        let room = (window.y - notice::top(window) - ROOM).max(LEAST_ROOM);
         // Reserves the full height. A notice gets the height of its last frame, and would otherwise grow frame by
         // frame.
         let scroll =

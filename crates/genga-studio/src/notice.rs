@@ -1,15 +1,17 @@
 //! Notices (お知らせ): messages over the table. The layout below does not move when one comes or goes.
 
-use egui::{Align2, Area, Color32, Frame, Id, Label, Order, Stroke, Ui, vec2};
+use egui::{Align2, Area, Color32, Frame, Id, Label, Order, Stroke, Ui, Vec2, vec2};
 
 use super::command::Command;
 use super::focus::Part;
 use super::icon::{self, Icon};
+use super::panels;
 use super::theme::Look;
 use super::words::Words;
 
-/// Distance of the first notice from the top, below the buttons, in points.
-const TOP: f32 = 58.0;
+/// Distance of the first notice from the top, below the goals, in points; and in a low window, which has no room to spare.
+const TOP: f32 = 80.0;
+const TOP_IF_LOW: f32 = 58.0;
 /// Greatest width of a notice, in points.
 const WIDE: f32 = 860.0;
 
@@ -29,11 +31,17 @@ impl Message {
     }
 }
 
+/// Distance of the first notice from the top of a window.
+pub(super) fn top(window: Vec2) -> f32 {
+    if panels::is_low(window) { TOP_IF_LOW } else { TOP }
+}
+
 /// Shows notices one below the other, above everything else.
 pub(super) fn over(ui: &Ui, add: impl FnOnce(&mut Ui)) {
     let area = Area::new(Id::unique("notices")).order(Order::Foreground);
-    area.anchor(Align2::CENTER_TOP, vec2(0.0, TOP)).show(ui.ctx(), |ui| {
-        ui.set_max_width(WIDE.min(ui.ctx().content_rect().width() - 40.0));
+    let window = ui.ctx().content_rect().size();
+    area.anchor(Align2::CENTER_TOP, vec2(0.0, top(window))).show(ui.ctx(), |ui| {
+        ui.set_max_width(WIDE.min(window.x - 40.0));
         ui.spacing_mut().item_spacing.y = 6.0;
         add(ui);
     });
