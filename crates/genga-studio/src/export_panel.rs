@@ -146,12 +146,14 @@ impl OrderPanel {
             commands.push(Command::Dismiss);
         }
         let all = words.say("sheet.json, tables, figures, recipe", "sheet.json、表、図、レシピ");
-        ui.weak(match destinations::of(order) {
-            Some(destination) if words.is_japanese() => {
-                format!("{}、ほかに{all}", destination.writes(words))
-            }
-            Some(destination) => format!("{}; {all}", destination.writes(words)),
-            None => all.to_owned(),
+        let own = match destinations::of(order) {
+            Some(destination) => destination.writes(words).to_owned(),
+            None => order.formats.join(" "),
+        };
+        ui.weak(match (own.as_str(), words.is_japanese()) {
+            ("", _) => all.to_owned(),
+            (own, true) => format!("{own}、ほかに{all}"),
+            (own, false) => format!("{own}; {all}"),
         });
     }
 }
