@@ -607,3 +607,17 @@ fn wrong_joint_weights_are_refused_with_the_nearest_name() {
         assert!(said.contains(wanted), "{args}: {said}");
     }
 }
+
+#[test]
+fn a_setting_that_another_option_sets_names_that_option() {
+    let place = Place::new();
+    for (args, wanted) in [
+        ("--set images.height=100", "--with images.height=100"),
+        ("--set figures.png=true", "--with figures.png=true"),
+        ("--with filter.width=0.2", "--set filter.width=0.2"),
+    ] {
+        let said = place.refused(2, &format!("run data/kick.bvh {args} --out a"));
+        assert!(said.contains(wanted), "{args}: {said}");
+        assert!(!place.path("a").exists(), "nothing is written");
+    }
+}

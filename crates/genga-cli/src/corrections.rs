@@ -154,7 +154,7 @@ impl Settings {
             }
         };
         for (name, value) in &self.set {
-            recipe.set(name, value)?;
+            recipe.set(name, value).map_err(|error| of_a_format(name, value, error))?;
         }
         Ok((recipe, edits))
     }
@@ -163,6 +163,16 @@ impl Settings {
     fn set_layers(&self, recipe: &mut Recipe) -> Result<(), Failure> {
         let mut of_layers = self.set.iter().filter(|(name, _)| name.contains('/'));
         of_layers.try_for_each(|(name, value)| Ok(recipe.set(name, value)?))
+    }
+}
+
+/// The error for a setting that a recipe does not have. One of a format is set by another option.
+fn of_a_format(name: &str, value: &str, error: Error) -> Failure {
+    match genga_files::Settings::default().names().iter().any(|own| own == name) {
+        true => Failure::AskedWrongly(format!(
+            "--set: {name} is a setting of the files that are written: --with {name}={value}"
+        )),
+        false => error.into(),
     }
 }
 

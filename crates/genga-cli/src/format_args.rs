@@ -14,6 +14,7 @@ use super::sheets::SHEET;
 use super::staging::Bundle;
 use super::{files, paths};
 use genga::error::{Error, Warning};
+use genga::knob::Knob;
 use genga_files::{
     Attempt, BoneMap, Cut, FORMATS, Format, MmdModel, Settings, Sink, Vmd, sheet_json,
 };
@@ -40,6 +41,11 @@ impl LookArgs {
             settings.look_from(camera);
         }
         for (name, value) in &self.with {
+            if Knob::find(name).is_ok() {
+                return Err(Failure::AskedWrongly(format!(
+                    "--with: {name} is a setting of the recipe: --set {name}={value}"
+                )));
+            }
             if name == "vmd.model" && !Vmd::is_file(value) && Path::new(value).exists() {
                 let message = format!("{value} is no model (.pmx, .pmd), nor the name of one");
                 return Err(Error::setting(name, message).into());
