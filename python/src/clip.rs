@@ -127,11 +127,16 @@ impl Clip {
         metres: Option<f64>,
         name: &str,
     ) -> PyResult<Self> {
-        let (Some(places), true) =
-            (root.or(translations), root.is_none() || translations.is_none())
-        else {
-            let message = "root and translations both set the positions: give one of them";
-            return Err(asked_wrongly(py, message));
+        let places = match (root, translations) {
+            (Some(places), None) | (None, Some(places)) => places,
+            (Some(_), Some(_)) => {
+                let message = "root and translations both set the positions: give one of them";
+                return Err(asked_wrongly(py, message));
+            }
+            (None, None) => {
+                let message = "neither root nor translations set the positions: give one of them";
+                return Err(asked_wrongly(py, message));
+            }
         };
         let [offsets, rotations, places] = [floats(offsets)?, floats(rotations)?, floats(places)?];
         let tips = tips.map(floats).transpose()?;

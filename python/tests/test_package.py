@@ -166,8 +166,10 @@ def test_joints_that_travel_and_tips_are_kept(clip):
     assert np.allclose(moved[-1, below], 30, atol=1e-6) and not moved[:, 0].any()
     text = made.to_bvh()
     assert text.count("Xposition") == 2 and "OFFSET 0 -7 0" in text
-    with pytest.raises(genga.Error, match="give one of them"):
+    with pytest.raises(genga.Error, match="neither root nor translations .* give one of them"):
         genga.Clip(**arrays, rate=clip.rate)
+    with pytest.raises(genga.Error, match="both set the positions: give one of them"):
+        genga.Clip(**arrays, root=clip.positions[:, 0], translations=travels, rate=clip.rate)
 
 
 def test_arrays_are_cleaned_as_a_file_is(clip):

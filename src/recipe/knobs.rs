@@ -80,5 +80,9 @@ pub(super) fn unknown(name: &str) -> Error {
         return Error::setting(name, message);
     }
     let hint = nearest(name, KNOBS.iter().map(|knob| knob.name)).unwrap_or_default();
-    Error::setting(name, format!("there is no such setting; did you mean {hint}?"))
+    // A name that has hardly a letter of it is no help.
+    Error::setting(name, match hint.contains(name) || crate::error::distance(name, hint) * 2 <= name.len() {
+        true => format!("there is no such setting; did you mean {hint}?"),
+        false => "there is no such setting of the method; `genga run --help` lists them and the options".into(),
+    })
 }

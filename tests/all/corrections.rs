@@ -35,6 +35,42 @@ fn corrections_of_a_folder_add_up_until_a_fresh_run() {
 }
 
 #[test]
+fn settings_that_do_not_stay_are_given_back_by_the_words_of_the_note() {
+    let place = Place::new();
+    let asked = "--set spacing.on=2 --root-on ones --layers limbs --set B/spacing.on=3";
+    place.done(&format!("run data/kick.bvh {asked} --pin 42 --out a"));
+    place.done("run data/kick.bvh --recipe a/recipe.toml --out b");
+    let said = place.said("run data/kick.bvh --out a");
+    let way_out =
+        said.split("come back with ").nth(1).expect("it says how").lines().next().unwrap();
+    place.done(&format!("run data/kick.bvh {way_out} --out a"));
+    let recipe = |folder: &str| fs::read_to_string(place.path(folder).join("recipe.toml")).unwrap();
+    assert_eq!(recipe("a"), recipe("b"));
+    // A list has spaces, which a shell would part.
+    place.done("run data/kick.bvh --within 20..40:spacing.on=1 --out c");
+    let said = place.said("run data/kick.bvh --out c");
+    assert!(said.contains(" --set 'passages=[{ frames = [20, 40], spacing.on = 1 }]'\n"), "{said}");
+}
+
+#[test]
+fn a_genga_that_only_moves_is_gone_after_the_range_that_is_named() {
+    let place = Place::new();
+    let said = place.said("run data/kick.bvh --forbid 50 --out a");
+    let range = said.split("(--forbid ").nth(1).expect("it says how").split(' ').next().unwrap();
+    let (from, past) = range.split_once("..").unwrap();
+    let inside: std::ops::Range<usize> = from.parse().unwrap()..past.parse().unwrap();
+    assert!(inside.contains(&48), "{said}");
+    let genga = |folder: &str| {
+        let table = fs::read_to_string(place.path(folder).join("keys.csv")).unwrap();
+        column(&table, "source_frame").len()
+    };
+    place.done("run data/kick.bvh --out plain");
+    place.done(&format!("run data/kick.bvh --forbid {range} --out b"));
+    assert_eq!(genga("a"), genga("plain"));
+    assert_eq!(genga("b"), genga("plain") - 1);
+}
+
+#[test]
 fn a_number_of_genga_overrules_kept_switches_that_leave_none_to_find() {
     let place = Place::new();
     place.done("run data/kick.bvh --pin 42,60 --only-pins --out a");
@@ -73,7 +109,7 @@ fn the_summary_says_what_each_correction_did() {
         [
             "hold 33: stays for 4 koma",
             "pin 42: genga 7 in place of 41",
-            "forbid 50: genga 9 moved from 48 to 47",
+            "forbid 50: genga 9 moved from 48 to 47 (--forbid 47..53 leaves none)",
             "pin 60: genga 11, a genga already",
             "move 71:74: genga 12",
         ]

@@ -36,13 +36,19 @@ pub(super) fn keep(
         (stay, format!("kept from {from} (--fresh goes without)")),
         (gone, format!("of {from}, replaced or not of this clip any more")),
     ];
+    let said = said.into_iter().filter(|(which, _)| !which.is_empty());
+    let mut said: Vec<_> =
+        said.map(|(which, what)| format!("{what}: {}", shortened_list(which))).collect();
     let lost = lost_settings(&settings, &plan.recipe);
-    let way_out = format!("settings do not stay; --recipe {from} keeps those of the run before");
-    let said = said.into_iter().chain([(lost, way_out)]).filter(|(which, _)| !which.is_empty());
-    Ok(said.map(|(which, what)| format!("{what}: {}", shortened_list(which))).collect())
+    if !lost.is_empty() {
+        // All of them: the recipe that has them is written over by this run.
+        let way_out = "settings do not stay; those of the run before come back with";
+        said.push(format!("{way_out} {}", lost.join(" ")));
+    }
+    Ok(said)
 }
 
-/// Lists the settings of the previous run that this one has back at their defaults.
+/// Lists the settings of the previous run that this one has back at their defaults, as options for a shell.
 fn lost_settings(before: &Recipe, now: &Recipe) -> Vec<String> {
     let [usual, before, now] = [&Recipe::default(), before, now].map(Recipe::settings);
     let is_lost = |own: &&(String, String)| !usual.contains(own) && !now.contains(own);
@@ -51,7 +57,16 @@ fn lost_settings(before: &Recipe, now: &Recipe) -> Vec<String> {
         there.is_none_or(|there| usual.contains(there))
     };
     let lost = before.iter().filter(is_lost).filter(is_reset);
-    lost.map(|(name, word)| format!("{name}={word}")).collect()
+    lost.map(|(name, word)| option(name, word)).collect()
+}
+
+/// The option that sets a setting, in quotes if a shell would take it apart.
+fn option(name: &str, word: &str) -> String {
+    let is_plain = |letter: char| letter.is_alphanumeric() || "./-_%+,:".contains(letter);
+    match name.chars().chain(word.chars()).all(is_plain) {
+        true => format!("--set {name}={word}"),
+        false => format!("--set '{name}={}'", word.replace('\'', r"'\''")),
+    }
 }
 
 /// Leaves out what this part of the clip, or these layers, do not have.

@@ -80,9 +80,22 @@ impl Outcomes<'_> {
             return format!("genga {number} stays at {frame}, as it is pinned");
         }
         match self.instead_of(frame).and_then(|to| Some((to, self.number(to)?))) {
-            Some((to, number)) => format!("genga {number} moved from {frame} to {to}"),
+            Some((to, number)) => {
+                let none = self.ban_between(frame);
+                format!("genga {number} moved from {frame} to {to} (--forbid {none} leaves none)")
+            }
             None => format!("the genga at {frame} is gone"),
         }
+    }
+
+    /// The ban after which no genga stands between those before and after one.
+    fn ban_between(&self, frame: Frame) -> Forbidden {
+        let others = || self.own.uncorrected.iter().map(|key| key.frame);
+        let before = others().filter(|other| *other < frame).max().unwrap_or(self.clock.first);
+        let after = others().filter(|other| *other > frame).min();
+        let end = self.clock.place_from_koma(self.sheet.length()).ceil() as usize;
+        let koma = self.clock.frames_in_koma();
+        Forbidden::between(before, frame, after.unwrap_or(Frame(end)), koma)
     }
 
     fn of_move(&self, moved: &Move) -> Option<(Frame, String)> {
