@@ -335,3 +335,16 @@ fn what_there_is_no_clip_of_is_said() {
         assert!(said.contains(reason), "{args}: {said}");
     }
 }
+
+#[test]
+fn a_clip_that_ends_in_the_middle_is_done_and_the_last_lines_say_so() {
+    let place = Place::new();
+    let whole = fs::read(crate::clips::here("data/tennis.bvh")).unwrap();
+    fs::create_dir(place.path("lib")).unwrap();
+    fs::write(place.path("lib/half.bvh"), &whole[..30_000]).unwrap();
+    fs::copy(crate::clips::here("data/kick.bvh"), place.path("lib/kick.bvh")).unwrap();
+    let said = place.said("batch lib --out out");
+    assert!(said.contains("(--strict refuses damaged ones): W_FRAMES_MISMATCH 1\n"), "{said}");
+    let (code, said) = code(&place, "batch lib --strict --out strict");
+    assert!(code == 1 && said.contains("half.bvh"), "{said}");
+}

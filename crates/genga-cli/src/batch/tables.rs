@@ -1,5 +1,6 @@
 //! The tables of all clips: `summary.csv` and `keys.csv`, and apart from them `times.csv`, which differs on every run.
 
+use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, BufWriter};
 use std::path::Path;
@@ -28,6 +29,8 @@ pub(crate) struct Count {
     /// The first clips with files that a person changed, one a line.
     pub(crate) kept: Vec<String>,
     pub(crate) keeps: usize,
+    /// How many finished clips have a warning, by its code.
+    pub(crate) warned: BTreeMap<String, usize>,
 }
 
 /// Most failures listed in full.
@@ -147,6 +150,9 @@ impl Count {
         }
         if line.row.is_done() {
             self.done += 1;
+            for code in &line.row.warnings {
+                *self.warned.entry(code.clone()).or_default() += 1;
+            }
             if line.row.lacks_formats() {
                 name(&mut self.lacking, &mut self.lacks, format!("{}: {message}", line.clip));
             }

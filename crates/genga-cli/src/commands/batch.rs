@@ -393,7 +393,7 @@ fn join(args: &BatchArgs, words: &Words) -> Result<(), Failure> {
 
 /// Reports the outcome.
 fn end(count: &Count, of: usize, args: &BatchArgs, words: &Words) -> Result<(), Failure> {
-    let Count { done, failed, failures, lacking, lacks, kept, keeps } = count;
+    let Count { done, failed, failures, lacking, lacks, kept, keeps, warned } = count;
     let out = args.out.display();
     let tables =
         if args.shard.is_none() { "summary.csv keys.csv times.csv" } else { "next --join" };
@@ -405,6 +405,14 @@ fn end(count: &Count, of: usize, args: &BatchArgs, words: &Words) -> Result<(), 
         let more = if count > NAMED { "; …, all in summary.csv" } else { "" };
         format!("{}{more}", clips.join("; "))
     };
+    if !warned.is_empty() {
+        let warned: Vec<String> =
+            warned.iter().map(|(code, clips)| format!("{code} {clips}")).collect();
+        words.say(format_args!(
+            "note        clips with warnings (--strict refuses damaged ones): {}",
+            warned.join(", ")
+        ));
+    }
     if *keeps > 0 {
         words.say(format_args!("note        {KEPT}{}", listed(*keeps, kept)));
     }
