@@ -25,9 +25,22 @@ impl Forbidden {
         Self { from: frame, past: Frame(frame.0.saturating_add(1)) }
     }
 
+    /// Creates the ban that takes the key at `frame` away from among others, so that none is found in its place: from the
+    /// one before it to the one after it, or to the ends of what is shown.
+    pub fn instead_of(
+        frame: Frame,
+        others: impl Iterator<Item = Frame> + Clone,
+        (first, end): (Frame, Frame),
+        koma: f64,
+    ) -> Self {
+        let before = others.clone().filter(|other| *other < frame).max().unwrap_or(first);
+        let after = others.filter(|other| *other > frame).min().unwrap_or(end);
+        Self::between(before, frame, after, koma)
+    }
+
     /// Creates the ban of every key between two that stay, of which one stands at `frame`. Where the two are so near that
     /// any ban reaches one of them, it is that frame alone.
-    pub fn between(before: Frame, frame: Frame, after: Frame, koma: f64) -> Self {
+    pub(super) fn between(before: Frame, frame: Frame, after: Frame, koma: f64) -> Self {
         let reach = (REACH * koma + 1e-9) as usize;
         let range =
             Self { from: Frame(before.0 + reach + 1), past: Frame(after.0.saturating_sub(reach)) };

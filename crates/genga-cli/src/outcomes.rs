@@ -90,12 +90,10 @@ impl Outcomes<'_> {
 
     /// The ban after which no genga stands between those before and after one.
     fn ban_between(&self, frame: Frame) -> Forbidden {
-        let others = || self.own.uncorrected.iter().map(|key| key.frame);
-        let before = others().filter(|other| *other < frame).max().unwrap_or(self.clock.first);
-        let after = others().filter(|other| *other > frame).min();
-        let end = self.clock.place_from_koma(self.sheet.length()).ceil() as usize;
-        let koma = self.clock.frames_in_koma();
-        Forbidden::between(before, frame, after.unwrap_or(Frame(end)), koma)
+        let others = self.own.uncorrected.iter().map(|key| key.frame);
+        let end = Frame(self.clock.place_from_koma(self.sheet.length()).ceil() as usize);
+        let ends = (self.clock.first, end);
+        Forbidden::instead_of(frame, others, ends, self.clock.frames_in_koma())
     }
 
     fn of_move(&self, moved: &Move) -> Option<(Frame, String)> {

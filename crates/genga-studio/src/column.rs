@@ -85,14 +85,11 @@ impl<'a> Column<'a> {
             Origin::Moved { from } => from,
             _ => key.frame,
         };
-        let others =
-            || self.keys().iter().filter(|other| other.frame != key.frame).map(|other| other.frame);
-        let before = others().filter(|other| *other < found).max();
-        let after = others().filter(|other| *other > found).min();
+        let others = self.keys().iter().map(|other| other.frame);
+        let others = others.filter(|other| *other != key.frame);
         let clock = &self.clock;
         let end = Frame(clock.place_from_koma(self.length).ceil() as usize);
-        let (before, after) = (before.unwrap_or(clock.first), after.unwrap_or(end));
-        Forbidden::between(before, found, after, clock.frames_in_koma())
+        Forbidden::instead_of(found, others, (clock.first, end), clock.frames_in_koma())
     }
 
     /// The spacing of the column along the sheet; `last` is the clip's last frame.
