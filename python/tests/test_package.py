@@ -557,34 +557,43 @@ def interrupted(work, after=0.5):
 
 
 @pytest.mark.skipif(os.name == "nt", reason="signals are sent otherwise there")
-def test_ctrl_c_ends_a_study(clip):
+@pytest.mark.parametrize(
+    "kept, times",
+    [({"measures": ["genga"]}, 1), ({"per_joint": True}, 1000)],
+    ids=["measures", "joints"],
+)
+def test_ctrl_c_ends_a_study(kept, times, clip):
     axes = dict(x=("filter.width", "1..600:1"), y=("turns.persistence", "1..600:1"))
-    assert interrupted(lambda: genga.study(clip, **axes, measures=["genga"])) < 1.5
+    long = many_times(clip, times)
+    ends(lambda: genga.study(long, **axes, **kept))
 
 
 @pytest.mark.skipif(os.name == "nt", reason="signals are sent otherwise there")
 def test_ctrl_c_ends_the_drawing_of_pictures(clip):
-    result = genga.run(many_times(clip, 20), spacing={"on": 1})
-    assert interrupted(result.to_images) < 8.0
+    ends(genga.run(many_times(clip, 20), spacing={"on": 1}).to_images)
 
 
 @pytest.mark.skipif(os.name == "nt", reason="signals are sent otherwise there")
 @pytest.mark.parametrize(
-    "work",
+    "work, times",
     [
-        lambda clip: genga.run(clip, targets={"max_error": 2, "drawings_per_second": 11.37}),
-        lambda clip: genga.compare(clip, keys=[10, 30, 90]),
+        (lambda clip: genga.run(clip, targets={"max_error": 2, "drawings_per_second": 11.37}), 600),
+        (lambda clip: genga.compare(clip, keys=[10, 30, 90]), 4),
     ],
     ids=["run", "compare"],
 )
-def test_ctrl_c_ends_the_work_and_not_the_wait(work, clip):
-    """Soon after, the process is idle. Unoptimised, the whole work takes more than a minute of processor time, a stage of
-    it some seconds."""
-    long = many_times(clip, 4)
-    assert interrupted(lambda: work(long)) < 1.5
+def test_ctrl_c_ends_the_work_and_not_the_wait(work, times, clip):
+    long = many_times(clip, times)
+    ends(lambda: work(long))
+
+
+def ends(work):
+    """Soon after Ctrl-C, the process is idle. The whole work takes half a minute of processor time or more, a stage of it
+    a few seconds."""
+    assert interrupted(work) < 1.5
     began = time.process_time()
-    while busy(0.5) > 0.1:
-        assert time.process_time() - began < 20.0
+    while busy(0.5) > 0.01:
+        assert time.process_time() - began < 10.0
 
 
 def busy(seconds):
