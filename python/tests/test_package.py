@@ -692,6 +692,8 @@ def test_everything_can_be_pickled(clip):
     again = pickle.loads(pickle.dumps(result))
     assert again.to_json() == result.to_json() and again.outcomes == result.outcomes and repr(again) == repr(result)
     assert again.recipe == result.recipe and again.clip.to_bvh() == clip.to_bvh()
+    told = genga.read(result.to_vrma()["kick.vrma"])
+    assert pickle.loads(pickle.dumps(told)).warnings == told.warnings != []
     sheet = pickle.loads(pickle.dumps(result.sheet))
     assert (sheet.rate, sheet.koma) == (result.sheet.rate, result.sheet.koma)
     assert sheet.drawings["why"].tolist() == result.sheet.drawings["why"].tolist()
