@@ -370,6 +370,18 @@ def test_wrong_arrays_are_refused_in_words(clip):
         genga.Clip(**{**good, "parents": [-1, -2]}, rotations=unit)
     with pytest.raises(genga.Error, match="needs a joint and a frame"):
         genga.Clip(**{**good, "root": np.zeros((0, 3))}, rotations=unit[:0])
+    wrong = {"parents": [-1], "offsets": np.zeros((2, 2)), "root": np.zeros((4, 3)), "tips": np.zeros((3, 3))}
+    wrong["translations"] = np.zeros((5, 1, 3))
+    for name, array in wrong.items():
+        arrays = {**good, "rotations": unit, name: array}
+        if name == "translations":
+            del arrays["root"]
+        with pytest.raises(genga.Error, match=f"{name} has the shape"):
+            genga.Clip(**arrays)
+    for name in ("rate", "metres"):
+        for number in (0.0, -1.0, math.nan, math.inf):
+            with pytest.raises(genga.Error):
+                genga.Clip(**{**good, name: number}, rotations=unit)
 
 
 @pytest.mark.parametrize(
