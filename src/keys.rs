@@ -93,6 +93,14 @@ impl Key {
         let (strength, price) = (1.0, f64::INFINITY);
         Self { frame, strength, price, voters, weight, name, origin: Origin::Pinned }
     }
+
+    /// The frame before a person moved it.
+    pub fn unmoved(&self) -> Frame {
+        match self.origin {
+            Origin::Moved { from } => from,
+            _ => self.frame,
+        }
+    }
 }
 
 /// The origin of a key.

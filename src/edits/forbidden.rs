@@ -4,7 +4,7 @@ use std::fmt;
 use std::str::FromStr;
 
 use crate::knob::by_word;
-use crate::time::Frame;
+use crate::time::{Clock, Frame};
 
 /// Koma around a forbidden frame in which no key is found either: any nearer, it would be the same key again.
 const REACH: f64 = 2.0;
@@ -25,17 +25,18 @@ impl Forbidden {
         Self { from: frame, past: Frame(frame.0.saturating_add(1)) }
     }
 
-    /// Creates the ban that takes the key at `frame` away from among others, so that none is found in its place: from the
-    /// one before it to the one after it, or to the ends of what is shown.
+    /// Creates the ban of all keys between those before and after `frame`, so that none is found in its place. Where there
+    /// is no other key, it goes to the end of a sheet of `length` koma.
     pub fn instead_of(
         frame: Frame,
         others: impl Iterator<Item = Frame> + Clone,
-        (first, end): (Frame, Frame),
-        koma: f64,
+        clock: &Clock,
+        length: usize,
     ) -> Self {
-        let before = others.clone().filter(|other| *other < frame).max().unwrap_or(first);
+        let end = Frame(clock.place_from_koma(length).ceil() as usize);
+        let before = others.clone().filter(|other| *other < frame).max().unwrap_or(clock.first);
         let after = others.filter(|other| *other > frame).min().unwrap_or(end);
-        Self::between(before, frame, after, koma)
+        Self::between(before, frame, after, clock.frames_in_koma())
     }
 
     /// Creates the ban of every key between two that stay, of which one stands at `frame`. Where the two are so near that

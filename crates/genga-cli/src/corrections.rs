@@ -166,7 +166,7 @@ impl Settings {
     }
 }
 
-/// The error for a setting that a recipe does not have. One of a format is set by another option.
+/// Names the right option for a setting of a format; for any other unknown setting keeps the error.
 fn of_a_format(name: &str, value: &str, error: Error) -> Failure {
     match genga_files::Settings::default().names().iter().any(|own| own == name) {
         true => Failure::AskedWrongly(format!(

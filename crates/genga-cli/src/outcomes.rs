@@ -81,19 +81,13 @@ impl Outcomes<'_> {
         }
         match self.instead_of(frame).and_then(|to| Some((to, self.number(to)?))) {
             Some((to, number)) => {
-                let none = self.ban_between(frame);
+                let others = self.own.uncorrected.iter().map(|key| key.frame);
+                let length = self.sheet.length();
+                let none = Forbidden::instead_of(frame, others, &self.clock, length);
                 format!("genga {number} moved from {frame} to {to} (--forbid {none} leaves none)")
             }
             None => format!("the genga at {frame} is gone"),
         }
-    }
-
-    /// The ban after which no genga stands between those before and after one.
-    fn ban_between(&self, frame: Frame) -> Forbidden {
-        let others = self.own.uncorrected.iter().map(|key| key.frame);
-        let end = Frame(self.clock.place_from_koma(self.sheet.length()).ceil() as usize);
-        let ends = (self.clock.first, end);
-        Forbidden::instead_of(frame, others, ends, self.clock.frames_in_koma())
     }
 
     fn of_move(&self, moved: &Move) -> Option<(Frame, String)> {

@@ -3,7 +3,7 @@
 use std::ops::Deref;
 
 use genga::edits::{Edits, Forbidden, Hold};
-use genga::keys::{Key, Origin};
+use genga::keys::Key;
 use genga::pipeline::{Breakdown, LayerBreakdown};
 use genga::recipe::Recipe;
 use genga::sheet::{Layer, Source};
@@ -81,15 +81,9 @@ impl<'a> Column<'a> {
 
     /// The frames at which no key may be found once one is taken away: those between its neighbours.
     pub(super) fn place_of(&self, key: &Key) -> Forbidden {
-        let found = match key.origin {
-            Origin::Moved { from } => from,
-            _ => key.frame,
-        };
         let others = self.keys().iter().map(|other| other.frame);
         let others = others.filter(|other| *other != key.frame);
-        let clock = &self.clock;
-        let end = Frame(clock.place_from_koma(self.length).ceil() as usize);
-        Forbidden::instead_of(found, others, (clock.first, end), clock.frames_in_koma())
+        Forbidden::instead_of(key.unmoved(), others, &self.clock, self.length)
     }
 
     /// The spacing of the column along the sheet; `last` is the clip's last frame.
@@ -141,11 +135,14 @@ impl<'a> Column<'a> {
         self.cells.iter().find(stands_here).and_then(|cell| cell.key).or(cell.key)
     }
 
-    /// The koma on which the drawing of a key's frame begins, else the koma nearest to a frame.
+    /// The exposure of the key at a frame.
+    pub(super) fn cell_of(&self, frame: Frame) -> Option<&KeyedCell<'a>> {
+        self.cells.iter().find(|cell| cell.key.is_some_and(|key| key.frame == frame))
+    }
+
+    /// The koma on which the drawing of the key at a frame begins. Without a key, the koma nearest to the frame.
     pub(super) fn koma_of(&self, frame: Frame) -> usize {
-        let is_it = |cell: &&KeyedCell<'_>| cell.key.is_some_and(|key| key.frame == frame);
-        let own = self.cells.iter().find(is_it);
-        own.map_or_else(|| self.clock.koma_from_frame(frame), |cell| cell.koma)
+        self.cell_of(frame).map_or_else(|| self.clock.koma_from_frame(frame), |cell| cell.koma)
     }
 
     /// The koma at which the drawing of a place began before anything was left out.

@@ -3,7 +3,6 @@
 use egui::style::ScrollStyle;
 use egui::{CollapsingHeader, Panel, RichText, ScrollArea, Ui};
 
-use super::column::KeyedCell;
 use super::command::Command;
 use super::corrections::Correction;
 use super::focus;
@@ -25,7 +24,7 @@ pub(super) fn below(ui: &mut Ui, shown: &Shown<'_>, commands: &mut Vec<Command>)
         return;
     }
     Panel::bottom("corrections").exact_size(HIGH).show(ui, |ui| {
-        // A bar that is always there says that there are more.
+        // The bar is always drawn: it shows that the list goes on.
         ui.spacing_mut().scroll = ScrollStyle::solid();
         ScrollArea::vertical().id_salt("corrections").auto_shrink(false).show(ui, |ui| {
             show(ui, shown, commands);
@@ -123,8 +122,8 @@ fn keys_of(
         let what = match range.is_one() {
             true => format!("{forbidden} {}", shown.named(range.from)),
             false => {
-                let last = shown.frame(range.past.0 as f64 - 1.0);
-                format!("{forbidden} {}–{}", shown.named(range.from), shown.number_of(last))
+                let [from, to] = shown.ends(*range);
+                format!("{forbidden} {}–{}", shown.named(from), shown.number_of(to))
             }
         };
         let at = Some(range.from).filter(|frame| shown.breakdown.clip.contains(*frame));
@@ -189,12 +188,10 @@ impl Row<'_> {
         });
     }
 
-    /// The number of the genga that a frame has in its column, or in the selected one.
+    /// The number of the genga at a frame, in the row's column or else in the selected one.
     fn genga_number(&self, frame: Frame, shown: &Shown<'_>) -> Option<Number> {
         let own = shown.columns.iter().find(|column| Some(column.name) == self.column);
-        let cells = &own.unwrap_or(shown.column()).cells;
-        let is_it = |cell: &&KeyedCell<'_>| cell.key.is_some_and(|key| key.frame == frame);
-        cells.iter().find(is_it)?.genga_number()
+        own.unwrap_or(shown.column()).cell_of(frame)?.genga_number()
     }
 }
 

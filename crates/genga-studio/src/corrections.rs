@@ -127,12 +127,10 @@ impl Of<'_> {
             return;
         }
         let forbidden = self.edits.forbidden_of(self.column);
-        // What lies in it is banned by it.
+        // The range bans what lies in it, itself among them.
         forbidden.retain(|other| other.from < range.from || range.past < other.past);
-        if !forbidden.contains(&range) {
-            forbidden.push(range);
-            forbidden.sort_by_key(|range| range.from);
-        }
+        forbidden.push(range);
+        forbidden.sort_by_key(|range| range.from);
     }
 
     fn move_to(&mut self, key: &Key, to: Frame) {

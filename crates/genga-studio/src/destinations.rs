@@ -117,7 +117,7 @@ impl Destination {
         !order.formats.is_empty() && order.formats == self.ordered()
     }
 
-    /// What it writes beyond what every export has.
+    /// Describes its files, without those of every export.
     pub(super) fn writes(&self, words: Words) -> &'static str {
         words.say(self.writes, self.writes_japanese)
     }
@@ -128,8 +128,8 @@ impl Destination {
     }
 }
 
-/// The destination that an order is for: of those with its formats the one that was chosen. `None` if it asks for formats
-/// of its own.
+/// Returns the destination of an order. If several have its formats, it is the one that was chosen. `None` if the order
+/// asks for formats of its own.
 pub(super) fn of(order: &Order) -> Option<&'static Destination> {
     let fitting = || DESTINATIONS.iter().filter(|destination| destination.is_of(order));
     fitting().find(|destination| destination.english == order.to).or_else(|| fitting().next())

@@ -116,6 +116,7 @@ impl Exporting {
         });
     }
 }
+
 /// Lists files by name, those of a folder by their number.
 fn listed(files: &[String]) -> String {
     let mut words: Vec<String> = Vec::new();
@@ -131,6 +132,7 @@ fn listed(files: &[String]) -> String {
 fn folder(file: &str) -> Option<&str> {
     file.split_once('/').map(|(folder, _)| folder)
 }
+
 #[cfg(test)]
 mod tests {
     use super::*;

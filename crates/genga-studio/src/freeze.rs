@@ -50,14 +50,10 @@ fn columns<'a>(
 
 /// Frames of the genga that corrections apply to. If all were chosen again around the corrections, the resulting genga.
 fn found(layer: &LayerBreakdown<'_>, again: bool) -> Vec<Frame> {
-    let frame = |key: &Key| match key.origin {
-        Origin::Moved { from } => from,
-        _ => key.frame,
-    };
     let keys = if again { &layer.keys.keys } else { layer.uncorrected };
     // Gaits also have keys at the phases of their steps.
     let steps = layer.keys.keys.iter().filter(|key| key.origin == Origin::Step);
-    let mut frames: Vec<Frame> = keys.iter().chain(steps).map(frame).collect();
+    let mut frames: Vec<Frame> = keys.iter().chain(steps).map(Key::unmoved).collect();
     frames.sort_unstable();
     frames.dedup();
     frames

@@ -12,6 +12,7 @@ use super::sound_track::Track;
 use super::theme::Look;
 use super::waveform::Waveform;
 use super::words::Words;
+use genga::edits::Forbidden;
 use genga::motion::JointId;
 use genga::pipeline::Breakdown;
 use genga::recipe::Footage;
@@ -116,6 +117,11 @@ impl<'a> Shown<'a> {
         Frame(frame.clamp(clip.first().0, clip.last().0))
     }
 
+    /// The first and the last frame of a ban; the last lies within the clip.
+    pub(super) fn ends(&self, ban: Forbidden) -> [Frame; 2] {
+        [ban.from, self.frame(ban.past.0 as f64 - 1.0)]
+    }
+
     /// Names the koma on which a source frame is shown, or the frame if frames are counted.
     pub(super) fn named(&self, frame: Frame) -> String {
         let number = self.number_of(frame);
@@ -127,7 +133,7 @@ impl<'a> Shown<'a> {
         }
     }
 
-    /// The number alone.
+    /// The number of that koma or frame.
     pub(super) fn number_of(&self, frame: Frame) -> usize {
         if self.counts_frames { frame.0 } else { self.column().koma_of(frame) + 1 }
     }

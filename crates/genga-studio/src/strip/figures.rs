@@ -53,19 +53,22 @@ impl Passage {
         from.koma..next.map_or(from.koma + from.held, |next| next.koma + 1)
     }
 
+    /// Koma that have gone by in this round of the passage. Negative while it stands still.
+    fn gone(&self, now: f64, shown: &Shown<'_>) -> f64 {
+        let rate = shown.column().clock.koma_rate;
+        let round = STILL + (self.koma(shown).len() + REST) as f64 / rate;
+        ((now - self.since) % round - STILL) * rate
+    }
+
     /// The koma to be shown. `None` while it rests at its beginning.
     fn at(&self, now: f64, shown: &Shown<'_>) -> Option<usize> {
-        let (koma, rate) = (self.koma(shown), shown.column().clock.koma_rate);
-        let round = STILL + (koma.len() + REST) as f64 / rate;
-        let gone = ((now - self.since) % round - STILL) * rate;
+        let (koma, gone) = (self.koma(shown), self.gone(now, shown));
         (gone >= 0.0).then(|| (koma.start + gone as usize).min(koma.end - 1))
     }
 
     /// Seconds until the next koma. `None` if nothing moves.
     pub(super) fn wait(&self, now: f64, shown: &Shown<'_>) -> Option<f32> {
-        let rate = shown.column().clock.koma_rate;
-        let round = STILL + (self.koma(shown).len() + REST) as f64 / rate;
-        let gone = ((now - self.since) % round - STILL) * rate;
+        let (rate, gone) = (shown.column().clock.koma_rate, self.gone(now, shown));
         let is_moving = self.koma(shown).len() > 1;
         is_moving
             .then(|| if gone < 0.0 { -gone / rate } else { (1.0 - gone.fract()) / rate } as f32)

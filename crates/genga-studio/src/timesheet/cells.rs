@@ -171,8 +171,7 @@ impl Strip<'_> {
     /// Draws a cross where no key may stand, and a line as long as the range.
     fn forbidden(&self, range: Forbidden, rows: &Range<usize>) {
         let clock = &self.column.clock;
-        let last = self.shown.frame(range.past.0 as f64 - 1.0);
-        let [from, to] = [range.from, last].map(|frame| clock.koma_from_frame(frame));
+        let [from, to] = self.shown.ends(range).map(|frame| clock.koma_from_frame(frame));
         if to < rows.start || from >= rows.end {
             return;
         }
