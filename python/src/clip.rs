@@ -1,5 +1,6 @@
 //! Motion: read from a file, or built from arrays.
 
+use std::error::Error;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -288,9 +289,10 @@ impl Clip {
         bvh::write(&self.motion)
     }
 
-    /// For pickle: the values as an array, the rest as JSON.
+    /// For pickle: the values as an array, the rest as MessagePack.
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
-        let head = serde_json::to_string(&Head::of(&self.motion)).map_err(unpickled)?;
+        let head = rmp_serde::to_vec(&Head::of(&self.motion));
+        let head = PyBytes::new(py, &head.map_err(|error| unpickled(&error))?);
         let values = PyArray1::from_iter(py, self.motion.rows().flatten().copied());
         let made = py.get_type::<Self>().getattr("_from_parts")?;
         let parts = (head, values, &self.file, self.warnings.clone());
@@ -301,12 +303,12 @@ impl Clip {
     fn _from_parts(
         _class: &Bound<'_, PyType>,
         py: Python<'_>,
-        head: &str,
+        head: &[u8],
         values: PyReadonlyArray1<'_, f64>,
         file: String,
         warnings: Vec<Told>,
     ) -> PyResult<Self> {
-        let head: Head = serde_json::from_str(head).map_err(unpickled)?;
+        let head: Head = rmp_serde::from_slice(head).map_err(|error| unpickled(&error))?;
         let motion = head.motion(values.as_slice()?.to_vec());
         let motion = Arc::new(motion.map_err(|error| raised(py, error))?);
         Ok(Self::with_told(motion, file, warnings))
@@ -336,7 +338,7 @@ fn axis(py: Python<'_>, name: &str) -> PyResult<Axis> {
     axis.ok_or_else(|| asked_wrongly(py, format!("up is x, y or z, not {name}")))
 }
 
-fn unpickled(error: serde_json::Error) -> PyErr {
+fn unpickled(error: &dyn Error) -> PyErr {
     PyValueError::new_err(error.to_string())
 }
 

@@ -1,9 +1,11 @@
 //! What pickle takes of a clip, so that it goes through pools of processes unchanged.
 
 use genga::motion::{
-    Axis, Channel, Clip as Motion, Declared, EndSite, Joint, JointId, Skeleton, Word,
+    Axis, Beside, CameraPath, Channel, Clip as Motion, Declared, EndSite, Joint, JointId, Skeleton,
+    Word,
 };
 use genga::time::{Frame, FrameRate};
+use genga_read::{GltfScene, VmdBeside};
 use pyo3::prelude::*;
 use serde::{Deserialize, Serialize};
 
@@ -22,6 +24,15 @@ pub struct Head {
     metres: Option<f64>,
     limbs: [Option<[usize; 3]>; 4],
     head: Option<usize>,
+    beside: Option<Others>,
+}
+
+/// What stands beside the body: the camera, and what each reader keeps for the writer of its format.
+#[derive(Serialize, Deserialize)]
+struct Others {
+    camera: Option<CameraPath>,
+    vmd: Option<VmdBeside>,
+    gltf: Option<GltfScene>,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -47,6 +58,7 @@ impl Head {
             metres,
             limbs: limbs.map(|limb| limb.map(|joints| joints.map(|joint| joint.0))),
             head: head.map(|joint| joint.0),
+            beside: motion.beside().map(Others::of),
         }
     }
 
@@ -68,7 +80,29 @@ impl Head {
         };
         let rate = FrameRate::new(self.rate)?;
         let motion = Motion::new(skeleton, rate, Frame(self.first), self.frames, values)?;
-        Ok(motion.with_declared(declared))
+        let motion = motion.with_declared(declared);
+        Ok(match self.beside {
+            Some(others) => motion.with_beside(others.beside()),
+            None => motion,
+        })
+    }
+}
+
+impl Others {
+    fn of(beside: &Beside) -> Self {
+        let (vmd, gltf) = (beside.kept().cloned(), beside.kept().cloned());
+        Self { camera: beside.camera.clone(), vmd, gltf }
+    }
+
+    fn beside(self) -> Beside {
+        let mut beside = Beside::new(self.camera);
+        if let Some(vmd) = self.vmd {
+            beside = beside.keep(vmd);
+        }
+        if let Some(gltf) = self.gltf {
+            beside = beside.keep(gltf);
+        }
+        beside
     }
 }
 

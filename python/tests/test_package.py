@@ -8,10 +8,12 @@ import multiprocessing
 import os
 import pickle
 import signal
+import struct
 import subprocess
 import sys
 import threading
 import time
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -716,6 +718,43 @@ def test_a_clip_that_begins_late_and_says_its_up_is_pickled_with_it(clip):
     other = pickle.loads(pickle.dumps(made))
     assert (other.first, other.up, other.metres) == (12, "y", 0.01)
     assert genga.run(other).to_json() == genga.run(made).to_json()
+
+
+def vmd_with_others(vmd):
+    """Puts a key of a smile and one of the camera into a VMD."""
+    bones = 54 + 111 * int.from_bytes(vmd[50:54], "little")
+    smile = "笑い".encode("cp932").ljust(15, b"\0") + struct.pack("<If", 3, 0.5)
+    camera = struct.pack("<I7f", 5, -45, 0, 10, 0, 0, 0.1, 0) + bytes([20, 107] * 12) + struct.pack("<IB", 30, 0)
+    return vmd[:bones] + struct.pack("<I", 1) + smile + struct.pack("<I", 1) + camera + bytes(8)
+
+
+def glb_with_others(glb):
+    """Puts a camera and a lamp of no model into a GLB."""
+    length = int.from_bytes(glb[12:16], "little")
+    document, rest = json.loads(glb[20 : 20 + length]), glb[20 + length :]
+    document["cameras"] = [{"type": "perspective", "perspective": {"yfov": 0.7, "znear": 0.1}}]
+    document["nodes"] += [{"name": "Lamp", "translation": [1, 2, 3]}, {"name": "Camera", "camera": 0}]
+    nodes = len(document["nodes"])
+    document["scenes"][document.get("scene", 0)]["nodes"] += [nodes - 2, nodes - 1]
+    text = json.dumps(document).encode()
+    text += b" " * (-len(text) % 4)
+    return glb[:8] + struct.pack("<III", 20 + len(text) + len(rest), len(text), 0x4E4F534A) + text + rest
+
+
+@pytest.mark.parametrize("write", ["to_vmd", "to_glb"])
+def test_what_stands_beside_the_body_is_pickled_with_it(write, clip):
+    with_others = {"to_vmd": vmd_with_others, "to_glb": glb_with_others}[write]
+
+    def written(result):
+        with warnings.catch_warnings(action="ignore"):
+            return list(getattr(result, write)().values())
+
+    bare = written(genga.run(clip))[0]
+    read = genga.read(with_others(bare))
+    result, other = genga.run(read), pickle.loads(pickle.dumps(read))
+    assert written(genga.run(genga.read(bare))) != written(result) == written(genga.run(other))
+    assert written(pickle.loads(pickle.dumps(result))) == written(result)
+    assert genga.run(other).to_xdts() == result.to_xdts()
 
 
 @pytest.mark.parametrize("method", [method for method in multiprocessing.get_all_start_methods()])

@@ -110,3 +110,17 @@ fn a_package_from_elsewhere_is_seen() {
         assert!(fault(&package(wrong)).unwrap().contains("source"), "{wrong:?}");
     }
 }
+
+#[test]
+fn python_is_bound_by_a_pyo3_of_0_29_or_newer() {
+    let lock: toml::Table =
+        toml::from_str(&fs::read_to_string(here("Cargo.lock")).unwrap()).unwrap();
+    let packages = lock["package"].as_array().unwrap();
+    let of_pyo3 = packages.iter().filter(|package| package["name"].as_str() == Some("pyo3"));
+    let versions: Vec<&str> = of_pyo3.map(|package| package["version"].as_str().unwrap()).collect();
+    assert!(!versions.is_empty());
+    for version in versions {
+        let mut numbers = version.split('.').map(|number| number.parse::<u32>().unwrap());
+        assert!((numbers.next(), numbers.next()) >= (Some(0), Some(29)), "pyo3 {version}");
+    }
+}

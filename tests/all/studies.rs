@@ -66,6 +66,14 @@ fn the_short_options_take_lists_and_ranges() {
         counts
     };
     assert_eq!(sorted(&turned), sorted(&short));
+    // Those of Table 1 begin with its recipe.
+    let table_1 = place.done("study data/kick.bvh");
+    for axes in [
+        "--filter-width 10,20,30 --persistence 5,10",
+        "--x filter.width=10..30:10 --y turns.persistence=5,10",
+    ] {
+        assert_eq!(place.done(&format!("study data/kick.bvh {axes}")), table_1, "{axes}");
+    }
     let said = |args: &str| text(&place.genga(&format!("study data/kick.bvh {args}")).stderr);
     assert!(
         said("--filter-width 4 --persistence 2").contains("that of Table 1 (genga recipe --study)")

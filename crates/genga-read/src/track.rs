@@ -1,9 +1,10 @@
 //! Keys of what the timing does not touch (体以外のキー), and the values between them.
 
 use glam::{DQuat, DVec4};
+use serde::{Deserialize, Serialize};
 
 /// What is between two keys.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Between {
     /// The value of the earlier key.
     Step,
@@ -16,7 +17,7 @@ pub enum Between {
 }
 
 /// The keys of one property (キー).
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Track {
     /// Places of the keys in the source, frame numbers with a fraction, ascending.
     pub places: Vec<f64>,

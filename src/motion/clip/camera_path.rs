@@ -1,9 +1,10 @@
 //! A camera through a take, frame by frame.
 
 use glam::{DQuat, DVec3};
+use serde::{Deserialize, Serialize};
 
 /// The way of a camera through a take (カメラの動き): its pose on each frame of the file, in the clip's unit and axes.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct CameraPath {
     /// Its name in the file.
     pub name: String,
@@ -12,7 +13,7 @@ pub struct CameraPath {
 }
 
 /// Where a camera stands, where it looks, and how much it sees.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct CameraPose {
     /// Its place.
     pub place: DVec3,
@@ -23,7 +24,7 @@ pub struct CameraPose {
 }
 
 /// The lens of a camera.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum Lens {
     /// With perspective: the height of the picture at distance 1, which is 2·tan(angle of view / 2).
     Perspective(f64),

@@ -2,9 +2,11 @@
 
 mod parts;
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 use glam::{DAffine3, DVec3};
+use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
 use super::buffers::Buffers;
@@ -16,7 +18,7 @@ use genga::error::Error;
 use parts::Parts;
 
 /// Nodes that are no part of the body, in the metres and axes of glTF, with all that they need.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct GltfScene {
     /// The nodes, those that carry others first.
     pub nodes: Vec<GltfNode>,
@@ -32,7 +34,7 @@ pub struct GltfScene {
 }
 
 /// A node that is no joint.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct GltfNode {
     /// The node as glTF writes it, without children.
     pub json: Map<String, Value>,
@@ -41,7 +43,7 @@ pub struct GltfNode {
 }
 
 /// What carries a node.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum Carrier {
     /// Nothing.
     World,
@@ -52,12 +54,12 @@ pub enum Carrier {
 }
 
 /// Keys of a node.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct GltfTrack {
     /// Index of the node in the list.
     pub node: usize,
     /// The property that they move, as glTF calls it: `translation`, `rotation`, `scale` or `weights`.
-    pub path: &'static str,
+    pub path: Cow<'static, str>,
     /// The keys.
     pub track: Track,
 }
@@ -238,7 +240,7 @@ fn tracks(
         let curve = Curve::read(document, buffers, sampler, width, &part)?;
         room.take(&curve, &part)?;
         let track = curve.track(played.begin, played.fps);
-        tracks.push(GltfTrack { node: *node, path, track });
+        tracks.push(GltfTrack { node: *node, path: Cow::Borrowed(path), track });
     }
     Ok(tracks)
 }

@@ -2,6 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use serde::{Deserialize, Serialize};
+
 use super::camera::{VmdCamera, VmdCameraKey};
 use super::damaged;
 use super::names::up_to_zero;
@@ -15,7 +17,7 @@ use genga::motion::CameraPath;
 pub const MORPH_NAME: usize = 15;
 
 /// What a VMD holds beside the bones (表情、カメラ、照明). Places of keys are frames.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct VmdBeside {
     /// Weights of morphs, by the field of the name as it is in the file, up to its first zero.
     pub faces: BTreeMap<Vec<u8>, Track>,

@@ -1,6 +1,7 @@
 //! MMD's camera: it circles a point at a distance.
 
 use glam::{DQuat, DVec3};
+use serde::{Deserialize, Serialize};
 
 use super::CENTIMETRES;
 use super::curve::Curve;
@@ -8,14 +9,14 @@ use genga::maths;
 use genga::motion::{CameraPose, Lens};
 
 /// The keys of MMD's camera, sorted by frame.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct VmdCamera {
     /// The keys, each on a frame of its own.
     pub keys: Vec<VmdCameraKey>,
 }
 
 /// A key of MMD's camera, in its units and left-handed axes.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct VmdCameraKey {
     /// The frame, from 0.
     pub frame: u32,
