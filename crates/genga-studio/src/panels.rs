@@ -3,6 +3,9 @@
 use std::ops::RangeInclusive;
 
 use egui::{Context, Ui, Vec2};
+use web_time::Instant;
+
+use super::task::BUDGET;
 
 /// A panel that can be hidden.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -13,7 +16,8 @@ pub(super) enum Side {
 }
 
 impl Side {
-    pub(super) const ALL: [Self; 3] = [Self::Knobs, Self::Curves, Self::Sheet];
+    #[cfg(test)]
+    const ALL: [Self; 3] = [Self::Knobs, Self::Curves, Self::Sheet];
 
     /// Whether it is shown by default. The views come first: expert settings and curves are for who asks for them.
     fn is_usual(self, window: Vec2) -> bool {
@@ -71,35 +75,50 @@ impl Panels {
     }
 }
 
-/// Number of panels filled since the first clip was opened (登場), one more each frame. In a browser code is slow the
-/// first time it runs, and drawing all panels at once would block the page.
+/// How far the panels were filled since the first clip was opened (登場). In a browser code is slow the first time it
+/// runs, and drawing all panels at once would block the page.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Arrival(usize);
+pub(super) struct Arrival {
+    /// Number of panels that the frame before filled.
+    filled: usize,
+    is_over: bool,
+}
 
-/// Number of panels that may still be filled in this frame.
+/// The panels that are filled in a frame: those of the frame before, one more, and what else begins in its time.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Turns(usize);
+pub(super) struct Turns {
+    taken: usize,
+    sure: usize,
+    end: Instant,
+    is_short: bool,
+}
 
 impl Arrival {
-    /// Panels that take turns: those at the sides, the transport, the strip, and the views.
-    const PANELS: usize = Side::ALL.len() + 3;
+    /// Returns the turns of this frame, in which all panels have one once they were all filled.
+    pub(super) fn turns(&self) -> Turns {
+        self.turns_until(Instant::now() + BUDGET)
+    }
 
-    /// Returns the turns of this frame. Requests another frame while not all panels have a turn.
-    pub(super) fn turns(&mut self, context: &Context) -> Turns {
-        let turns = Turns(self.0);
-        if self.0 < Self::PANELS {
-            self.0 += 1;
+    fn turns_until(&self, end: Instant) -> Turns {
+        let sure = if self.is_over { usize::MAX } else { self.filled + 1 };
+        Turns { taken: 0, sure, end, is_short: false }
+    }
+
+    /// Notes the turns that were taken. Requests another frame if a panel had none.
+    pub(super) fn note(&mut self, turns: Turns, context: &Context) {
+        (self.filled, self.is_over) = (turns.taken, !turns.is_short);
+        if turns.is_short {
             context.request_repaint();
         }
-        turns
     }
 }
 
 impl Turns {
     /// Takes a turn. Returns whether there was one.
     pub(super) fn take(&mut self) -> bool {
-        let is_there = self.0 > 0;
-        self.0 -= usize::from(is_there);
+        let is_there = self.taken < self.sure || Instant::now() < self.end;
+        self.taken += usize::from(is_there);
+        self.is_short |= !is_there;
         is_there
     }
 
@@ -118,14 +137,18 @@ mod tests {
     use egui::vec2;
 
     #[test]
-    fn panels_are_filled_one_more_each_frame() {
-        let (mut arrival, context) = (Arrival::default(), Context::default());
-        let filled = |arrival: &mut Arrival| {
-            let mut turns = arrival.turns(&context);
-            (0..10).filter(|_| turns.take()).count()
+    fn panels_are_filled_one_more_each_frame_and_all_within_its_time() {
+        let (context, now) = (Context::default(), Instant::now());
+        let filled = |arrival: &mut Arrival, end| {
+            let mut turns = arrival.turns_until(end);
+            let filled = (0..6).filter(|_| turns.take()).count();
+            arrival.note(turns, &context);
+            filled
         };
-        let frames: [usize; 8] = std::array::from_fn(|_| filled(&mut arrival));
-        assert_eq!(frames, [0, 1, 2, 3, 4, 5, 6, 6]);
+        let mut slow = Arrival::default();
+        let frames: [usize; 8] = std::array::from_fn(|_| filled(&mut slow, now));
+        assert_eq!(frames, [1, 2, 3, 4, 5, 6, 6, 6]);
+        assert_eq!(filled(&mut Arrival::default(), now + 1000 * BUDGET), 6);
     }
 
     #[test]

@@ -148,7 +148,7 @@ impl Studio {
         }
         let window = ui.ctx().content_rect().size();
         let is_there = |side| self.panels.is_shown(side, window);
-        let mut turns = self.arrival.turns(ui.ctx());
+        let mut turns = self.arrival.turns();
         if is_there(Side::Knobs) {
             let panel = Panel::left("knobs").default_size(306.0);
             panel.size_range(Side::Knobs.range(window)).show(ui, |ui| {
@@ -192,5 +192,6 @@ impl Studio {
         CentralPanel::default().frame(frame).show(ui, |ui| {
             turns.fill(ui, |ui| self.viewport.show(ui, &shown, commands));
         });
+        self.arrival.note(turns, ui.ctx());
     }
 }

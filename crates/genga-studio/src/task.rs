@@ -1,5 +1,5 @@
 //! An errand (用事): work done in the background, so that the window does not freeze. It runs on its own thread. Browsers
-//! have no threads, so there one step runs between two frames.
+//! have no threads, so there a few steps run between two frames.
 
 #[cfg(any(target_family = "wasm", test))]
 use std::cell::{Cell, RefCell};
@@ -7,6 +7,10 @@ use std::cell::{Cell, RefCell};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 #[cfg(not(target_family = "wasm"))]
 use std::thread;
+use std::time::Duration;
+
+#[cfg(any(target_family = "wasm", test))]
+use web_time::Instant;
 
 /// Work in progress.
 pub(super) struct Task<T>(Worker<T>);
@@ -47,6 +51,10 @@ impl<T: Send + 'static> Task<T> {
 /// Seconds until the next look.
 pub(super) const LOOK_AGAIN: f32 = if cfg!(target_family = "wasm") { 0.0 } else { 0.05 };
 
+/// Time of a frame after which nothing more begins that can wait for the next one. A browser takes tens of milliseconds to
+/// show a frame where the processor draws, so that short work does not take a frame each.
+pub(super) const BUDGET: Duration = Duration::from_millis(40);
+
 /// Work on its own thread.
 #[cfg(not(target_family = "wasm"))]
 struct Threaded<T>(Receiver<T>);
@@ -76,25 +84,33 @@ impl<T: Send + 'static> Threaded<T> {
     }
 }
 
-/// Work that advances one step per look. The first look does nothing, so that a frame can announce the work.
+/// Work that advances in looks. The first look does nothing, so that a frame can announce the work.
 #[cfg(any(target_family = "wasm", test))]
 struct BetweenFrames<T> {
     step: RefCell<Box<dyn FnMut() -> Option<T>>>,
     is_announced: Cell<bool>,
+    budget: Duration,
 }
 
 #[cfg(any(target_family = "wasm", test))]
 impl<T> BetweenFrames<T> {
     fn begin(step: impl FnMut() -> Option<T> + 'static) -> Self {
-        Self { step: RefCell::new(Box::new(step)), is_announced: Cell::new(false) }
+        let step = RefCell::new(Box::new(step));
+        Self { step, is_announced: Cell::new(false), budget: BUDGET }
     }
 
     fn look(&self) -> Look<T> {
         if !self.is_announced.replace(true) {
             return Look::Waiting;
         }
-        let done = (self.step.borrow_mut())();
-        done.map_or(Look::Waiting, Look::Done)
+        let (begin, mut step) = (Instant::now(), self.step.borrow_mut());
+        loop {
+            match step() {
+                Some(done) => return Look::Done(done),
+                None if begin.elapsed() >= self.budget => return Look::Waiting,
+                None => {}
+            }
+        }
     }
 }
 
@@ -134,9 +150,12 @@ mod tests {
     }
 
     #[test]
-    fn without_threads_a_look_is_a_step_after_the_first() {
-        let errand = BetweenFrames::begin(counting());
-        let looks = [(); 4].map(|()| errand.look());
+    fn without_threads_a_look_after_the_first_takes_steps_until_its_time_is_up() {
+        let within = |budget| BetweenFrames { budget, ..BetweenFrames::begin(counting()) };
+        let short = within(Duration::ZERO);
+        let looks = [(); 4].map(|()| short.look());
         assert_eq!(looks, [Look::Waiting, Look::Waiting, Look::Waiting, Look::Done(3)]);
+        let long = within(Duration::MAX);
+        assert_eq!([(); 2].map(|()| long.look()), [Look::Waiting, Look::Done(3)]);
     }
 }
