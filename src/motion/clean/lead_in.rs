@@ -45,6 +45,10 @@ const STANDS: f64 = 1e-4;
 /// In a longer time a body can really stop.
 const LONGEST_TAIL: f64 = 0.035;
 
+/// Least straightness of the way out of a pose that is no T-pose: from end to end, as a share of its steps. Real clips go
+/// out of inserted poses at 0.99. A body that shakes comes back.
+const STRAIGHT: f64 = 0.9;
+
 /// Smallest jump, in mean radians per joint; below 1 degree it does not matter.
 const SMALLEST_JUMP: f64 = 0.0175;
 
@@ -92,10 +96,14 @@ impl LeadIn {
         let jumping = steps.share_of_joints(jump.begin, jump.end + 1, following);
         let stands_out = ratio >= JUMP && jumping >= SOME_JOINTS
             || ratio >= COMMON_JUMP && jumping >= MOST_JOINTS;
-        let is_jump = stands_out && size >= SMALLEST_JUMP * joints;
-        is_jump.then(|| {
+        if !stands_out || size < SMALLEST_JUMP * joints {
+            return None;
+        }
+        let is_t_pose = is_t_pose(clip, end.frame(clip, 0));
+        let leads_out = is_t_pose || steps.straightness(jump.begin, jump.end) >= STRAIGHT;
+        leads_out.then(|| {
             let (first, last) = end.span(clip, jump.end);
-            Self { first, last, ratio, is_t_pose: is_t_pose(clip, end.frame(clip, 0)) }
+            Self { first, last, ratio, is_t_pose }
         })
     }
 
@@ -140,6 +148,8 @@ pub fn strip_out(clip: Clip) -> (Clip, Option<Warning>) {
 
 /// The steps inward from one end of a clip, in radians; step 0 is the outermost.
 struct Steps {
+    /// Rotations of the joints, frame by frame.
+    rotations: Vec<Vec<DQuat>>,
     /// Turn of each joint, step by step.
     joints: Vec<Vec<f64>>,
     /// Sums over all joints, step by step.
@@ -149,19 +159,23 @@ struct Steps {
 impl Steps {
     fn new(clip: &Clip, end: End, most: usize) -> Self {
         let count = clip.len().saturating_sub(1).min(most);
-        let mut joints = Vec::with_capacity(count);
-        if count > 0 {
-            let mut from = Pose::rest(clip.skeleton());
-            let mut to = from.clone();
-            from.take_frame(clip, end.frame(clip, 0));
-            for step in 1..=count {
-                to.take_frame(clip, end.frame(clip, step));
-                joints.push(turned(&from, &to));
-                std::mem::swap(&mut from, &mut to);
-            }
-        }
+        let mut pose = Pose::rest(clip.skeleton());
+        let rotations: Vec<Vec<DQuat>> = (0..clip.len().min(count + 1))
+            .map(|step| {
+                pose.take_frame(clip, end.frame(clip, step));
+                pose.rotations.clone()
+            })
+            .collect();
+        let joints: Vec<Vec<f64>> =
+            rotations.windows(2).map(|pair| turned(&pair[0], &pair[1])).collect();
         let sums = joints.iter().map(|step| step.iter().sum()).collect();
-        Self { joints, sums }
+        Self { rotations, joints, sums }
+    }
+
+    /// How straight some steps lead away: the turn from the first pose to the last, as a share of the steps between.
+    fn straightness(&self, begin: usize, end: usize) -> f64 {
+        let away: f64 = turned(&self.rotations[begin], &self.rotations[end + 1]).iter().sum();
+        away / self.sums[begin..=end].iter().sum::<f64>()
     }
 
     /// The share of jumping joints among those that turn at all; 0 if none does.
@@ -179,8 +193,8 @@ impl Steps {
 }
 
 /// The angle by which each joint turns, in radians.
-fn turned(from: &Pose, to: &Pose) -> Vec<f64> {
-    from.rotations.iter().zip(&to.rotations).map(|(from, to)| angle(*from, *to)).collect()
+fn turned(from: &[DQuat], to: &[DQuat]) -> Vec<f64> {
+    from.iter().zip(to).map(|(from, to)| angle(*from, *to)).collect()
 }
 
 /// The angle between two rotations from their chord, which is exact for small angles; q and −q are the same
@@ -368,6 +382,19 @@ mod tests {
             walk(frame as f64 / 120.0, joint) * (1.0 - left.get(frame).unwrap_or(&0.0))
         });
         assert_eq!(LeadIn::find(&clip).unwrap().len(), 4);
+    }
+
+    #[test]
+    fn a_shake_has_no_lead_in() {
+        let way = |there: f64| {
+            turning(25.0, 40, move |frame, joint| match frame {
+                0 => 60.0,
+                1 => 60.0 + there,
+                _ => 50.0 + 2.0 * (frame as f64 / 25.0 + joint).sin(),
+            })
+        };
+        assert_eq!(LeadIn::find(&way(-6.0)).unwrap().len(), 2, "straight out of a pose");
+        assert_eq!(LeadIn::find(&way(6.0)), None, "there and back");
     }
 
     #[test]

@@ -62,7 +62,11 @@ fn cameras_props_and_morphs_keep_their_own_keys() {
     let (old, new) = (scene(&clip), scene(&again));
     let tracks = |scene: &GltfScene| -> Vec<_> {
         let name = |node: usize| scene.nodes[node].json["name"].clone();
-        scene.tracks.iter().map(|own| (name(own.node), own.path, own.track.clone())).collect()
+        scene
+            .tracks
+            .iter()
+            .map(|own| (name(own.node), own.path.clone(), own.track.clone()))
+            .collect()
     };
     let (old_tracks, new_tracks) = (tracks(old), tracks(new));
     assert_eq!(old_tracks.len(), new_tracks.len());

@@ -32,7 +32,7 @@ fn what_stands_beside_the_body_is_kept_with_its_keys() {
         .tracks
         .iter()
         .map(|track| {
-            (name(&scene.nodes[track.node]), track.path, track.track.between, track.track.width)
+            (name(&scene.nodes[track.node]), &*track.path, track.track.between, track.track.width)
         })
         .collect();
     let expected = [
