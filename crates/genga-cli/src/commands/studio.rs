@@ -37,8 +37,8 @@ pub(super) struct StudioArgs {
 
 #[cfg(not(feature = "studio"))]
 pub(super) fn run(_: StudioArgs) -> Result<(), Failure> {
-    let message = "this genga was built without its window; \
-                   cargo install --path crates/genga-cli --features studio --locked builds it with one";
+    let message = "this genga was built without its window. A release has the studio as a page for browsers; from the \
+                   sources, cargo install --path crates/genga-cli --features studio --locked builds the window";
     Err(Failure::CouldNot(message.into()))
 }
 
