@@ -68,7 +68,7 @@ knobs!(filter::LowPass {
     .for_studies(),
     width: knob(
         "フィルタの適用範囲",
-        "Width of the smoothing filter. Higher values find fewer turns, so fewer genga, and blur \
+        "Width of the smoothing filter. Higher values find fewer turns as a rule, and blur \
          quick double actions.",
         "速さをならすフィルタの幅。広いほど原画は減り、素早い二段の動きはぼやける。",
     ),

@@ -127,8 +127,8 @@ knobs!(turns::TurnFinder {
     .for_studies(),
     persistence: knob(
         "連続フレーム数",
-        "How long the body must be faster before and after a turn. Longer values find fewer turns: \
-         short pauses and quick back-and-forth movements disappear.",
+        "How long the body must be faster before and after a turn. As a rule, longer values find \
+         fewer turns: short pauses and quick back-and-forth movements disappear.",
         "変わり目の前後で、体がより速い状態が続くべき長さ。長いほど変わり目は減り、\
          短い間や素早い往復は消える。",
     ),
