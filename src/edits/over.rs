@@ -1,13 +1,13 @@
 //! Corrections that add up from run to run: later ones over earlier ones.
 
-use super::{Edits, Forbidden, Frames, LayerEdits, Move, Pin};
+use super::{Edits, Frames, LayerEdits, Move, Pin};
 use crate::time::Frame;
 
 impl Edits {
     /// Lays these corrections over earlier ones. Where two contradict each other the later one wins: a pin lifts a ban
-    /// of its frame, a ban removes pins and moves into it, a hold replaces that of the same frame. A key that was pinned
-    /// or moved to a frame and is moved from there goes all the way; one that is moved back is as it was found. Splits
-    /// and frozen keys replace the earlier ones.
+    /// of its frame, a ban removes pins and moves into it, a move replaces pins and moves at its end, a hold replaces
+    /// that of the same frame. A key that was pinned or moved to a frame and is moved from there goes all the way; one
+    /// that is moved back is as it was found. Splits and frozen keys replace the earlier ones.
     ///
     /// ```
     /// use genga::edits::{Edits, Move, Pin};
@@ -101,7 +101,19 @@ impl LayerEdits {
 
 /// Lays the corrections of a layer, or of all, over earlier ones.
 fn lay(both: &mut LayerEdits, later: LayerEdits) {
-    let moves = later.moves.into_iter().filter_map(|moved| go_on(both, moved)).collect::<Vec<_>>();
+    let ends: Vec<Frame> = later.moves.iter().map(|moved| moved.to).collect();
+    let (mut moves, mut pins) = (Vec::new(), Vec::new());
+    for moved in later.moves {
+        match go_on(both, moved) {
+            GoneOn::Move(moved) => moves.push(moved),
+            GoneOn::Pin(pin) => pins.push(pin),
+            GoneOn::Back => {}
+        }
+    }
+    both.pins.retain(|pin| !ends.contains(&pin.frame));
+    both.moves.retain(|moved| !ends.contains(&moved.to));
+    both.forbidden.retain(|ban| !ban.is_one() || !ends.contains(&ban.from));
+    both.pins.extend(pins);
     let comes = |frame: Frame| later.pins.iter().any(|pin| pin.frame == frame);
     let goes = |frame: Frame| moves.iter().any(|moved| moved.from == frame);
     let is_banned = |frame: Frame| later.forbidden.iter().any(|ban| ban.distance(frame) == 0);
@@ -121,23 +133,28 @@ fn lay(both: &mut LayerEdits, later: LayerEdits) {
     }
 }
 
-/// Moves on what an earlier correction set at the begin of a move. Returns the move if there is none.
-fn go_on(earlier: &mut LayerEdits, moved: Move) -> Option<Move> {
-    let lift = |bans: &mut Vec<Forbidden>| bans.retain(|ban| *ban != Forbidden::one(moved.to));
+/// What a move becomes that goes on from an earlier correction.
+enum GoneOn {
+    Move(Move),
+    Pin(Pin),
+    /// The key is back where it was found.
+    Back,
+}
+
+/// Takes away what an earlier correction set at the begin of a move, and moves it on.
+fn go_on(earlier: &mut LayerEdits, moved: Move) -> GoneOn {
     if let Some(at) = earlier.moves.iter().position(|before| before.to == moved.from) {
         let before = earlier.moves.remove(at);
         let name = moved.name.or(before.name);
         let whole =
             Move { from: before.from, name, weight: moved.weight.or(before.weight), ..moved };
-        lift(&mut earlier.forbidden);
-        (whole.from != whole.to).then_some(whole)
-    } else if let Some(pin) = earlier.pins.iter_mut().find(|pin| pin.frame == moved.from) {
-        let name = moved.name.or(pin.name.take());
-        *pin = Pin { frame: moved.to, name, weight: moved.weight.or(pin.weight) };
-        lift(&mut earlier.forbidden);
-        None
+        if whole.from == whole.to { GoneOn::Back } else { GoneOn::Move(whole) }
+    } else if let Some(at) = earlier.pins.iter().position(|pin| pin.frame == moved.from) {
+        let pin = earlier.pins.remove(at);
+        let name = moved.name.or(pin.name);
+        GoneOn::Pin(Pin { frame: moved.to, name, weight: moved.weight.or(pin.weight) })
     } else {
-        Some(moved)
+        GoneOn::Move(moved)
     }
 }
 
@@ -191,6 +208,18 @@ mod tests {
                 edits(&["62:hit"], &[], &[]),
             ),
             (edits(&[], &["75"], &[]), edits(&[], &[], &["73:75"]), edits(&[], &[], &["73:75"])),
+            (edits(&[], &[], &["73:75"]), edits(&[], &[], &["71:75"]), edits(&[], &[], &["71:75"])),
+            (edits(&["75:a"], &[], &[]), edits(&[], &[], &["71:75"]), edits(&[], &[], &["71:75"])),
+            (
+                edits(&["60:a", "75:b"], &[], &[]),
+                edits(&[], &[], &["60:75"]),
+                edits(&["75:a"], &[], &[]),
+            ),
+            (
+                edits(&[], &[], &["71:75"]),
+                edits(&[], &[], &["73:75", "75:78"]),
+                edits(&[], &[], &["73:75", "71:78"]),
+            ),
         ] {
             assert_eq!(later.clone().over(earlier.clone()), both, "{later:?} over {earlier:?}");
             both.validate(Frame(0), Frame(91)).unwrap();

@@ -38,12 +38,17 @@ pub fn with_holds(layer: &Layer, spaced: &Layer, holds: &[Hold], clock: Clock) -
 /// Returns how many koma the drawing of a hold stays on a layer that went through [`with_holds`]; `None` if no drawing
 /// is close to the frame of the hold.
 pub fn held_for(layer: &Layer, hold: Hold, clock: Clock) -> Option<usize> {
+    held_drawing(layer, hold, clock).map(|shown| shown.koma)
+}
+
+/// Returns where the drawing of a hold stands, as [`held_for`] finds it.
+pub fn held_drawing(layer: &Layer, hold: Hold, clock: Clock) -> Option<&Exposure> {
     let frame = hold.frame.0 as f64;
     let away = |shown: &Exposure| (layer.drawings[shown.drawing].source.place() - frame).abs();
     let is_set = |shown: &&Exposure| layer.drawings[shown.drawing].why.hold_set;
     let set = layer.exposures.iter().filter(is_set);
     let nearest = set.min_by(|a, b| away(a).total_cmp(&away(b)))?;
-    (away(nearest) < NEAR * clock.frames_in_koma()).then_some(nearest.koma)
+    (away(nearest) < NEAR * clock.frames_in_koma()).then_some(nearest)
 }
 
 /// A drawing with its exposure.

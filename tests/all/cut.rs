@@ -195,7 +195,10 @@ fn what_does_not_fit_into_the_cut_is_refused_with_the_way_out() {
     assert!(said.contains(expected), "{said}");
     assert!(!folder.join("a").exists());
     for (args, words) in [
-        ("run kick.bvh --at 0", "expected a number of koma, 1 or more, as in 25, found \"0\""),
+        (
+            "run kick.bvh --at 0",
+            "expected a number of koma, 1 or more, as in 25, or seconds and koma, as in 3+0; found \"0\"",
+        ),
         ("run kick.bvh --length -3", "found \"-3\""),
         ("deliver kick.bvh kick.bvh --to sts --columns B", "--into"),
     ] {

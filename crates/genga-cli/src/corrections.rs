@@ -14,8 +14,9 @@ use genga::error::Error;
 use genga::keys::{Key, Origin};
 use genga::pipeline::{Breakdown, LayerBreakdown};
 use genga::recipe::Recipe;
-use genga::time::Frame;
-use genga::timing::held_for;
+use genga::sheet::{Drawing, Layer};
+use genga::time::{Clock, Frame};
+use genga::timing::{held_drawing, held_for};
 
 /// The recipe: a file, then single settings on top.
 #[derive(Debug, Clone, Args)]
@@ -59,7 +60,7 @@ pub(super) struct Corrections {
     moves: Vec<String>,
     /// How many koma drawings stay: --hold 42:4,60:1
     ///
-    /// Each drawing is given by the source frame that it shows.
+    /// Each drawing is given by the source frame that it shows, in all layers.
     #[arg(long = "hold", value_name = "FRAME:KOMA,…", value_delimiter = ',', help_heading = CORRECTIONS)]
     holds: Vec<String>,
     /// Frames at which actions begin: --split 310,774
@@ -184,7 +185,7 @@ impl Corrections {
         // A file of layers may have settings of its own, and those of the command line go over them.
         self.settings.set_layers(&mut recipe)?;
         self.layers.put_passages(&mut recipe)?;
-        self.put(&mut edits)?;
+        self.put(&mut edits, recipe.rate)?;
         Ok((recipe, edits))
     }
 
@@ -201,11 +202,13 @@ impl Corrections {
     }
 
     /// Puts the corrections of the command line on top of those of a recipe.
-    fn put(&self, edits: &mut Edits) -> Result<(), Failure> {
-        self.keys(edits)?;
-        self.cut.put(edits);
+    fn put(&self, edits: &mut Edits, rate: f64) -> Result<(), Failure> {
+        let mut keys = Edits::default();
+        self.keys(&mut keys)?;
+        *edits = keys.over(std::mem::take(edits));
+        self.cut.put(edits, rate);
         for hold in &self.holds {
-            let hold = Hold::parse(hold).map_err(|error| wrongly("hold", error))?;
+            let hold = self::hold(hold)?;
             edits.holds.retain(|other| other.frame != hold.frame);
             edits.holds.push(hold);
         }
@@ -223,7 +226,7 @@ impl Corrections {
         Ok(())
     }
 
-    /// Adds the pins, forbidden frames and moves of the command line.
+    /// Reads the pins, forbidden frames and moves of the command line.
     fn keys(&self, edits: &mut Edits) -> Result<(), Failure> {
         for text in &self.pin {
             let (layer, text) = layer_of(text);
@@ -304,6 +307,17 @@ fn wrongly(option: &str, error: Error) -> Failure {
     }
 }
 
+/// Parses a hold, which is of all layers.
+fn hold(text: &str) -> Result<Hold, Failure> {
+    match layer_of(text) {
+        (Some(layer), rest) => Err(Failure::AskedWrongly(format!(
+            "--hold: a drawing is held in all layers, not in {layer} alone: --hold {rest}, or edit the koma in \
+             sheet.json and give it to genga deliver"
+        ))),
+        (None, _) => Hold::parse(text).map_err(|error| wrongly("hold", error)),
+    }
+}
+
 /// Returns a sentence for each move that found no key to move in any of its layers.
 pub(super) fn unmoved(edits: &Edits, breakdown: &Breakdown<'_>) -> Vec<String> {
     let layers: Vec<_> = breakdown.layers().collect();
@@ -348,20 +362,51 @@ pub(super) fn unheld(edits: &Edits, breakdown: &Breakdown<'_>) -> Vec<String> {
         let stays = |layer| held_for(layer, *hold, breakdown.clock);
         let found: Vec<_> = layers.iter().filter_map(|own| Some((own, stays(own)?))).collect();
         if found.is_empty() {
-            said.push(format!(
-                "no drawing is within two koma of frame {frame}, so none stays for {asked} koma; --pin {frame} makes one \
-                 there"
-            ));
+            said.push(unfound(*hold, layers));
         }
         for (layer, koma) in found.into_iter().filter(|(_, koma)| *koma != asked) {
             let of = if layers.len() > 1 { format!("{}/", layer.name) } else { String::new() };
+            let why = why_not(layer, *hold, koma, breakdown.clock);
             said.push(format!(
-                "the drawing of frame {of}{frame} was to stay for {asked} koma and stays for {koma}: the next genga \
-                 stands there, or none would stay for one koma; move or forbid that genga to hold longer"
+                "the drawing of frame {of}{frame} was to stay for {asked} koma and stays for {koma}: {why}"
             ));
         }
     }
     said
+}
+
+/// Says why a held drawing stays longer or shorter than asked, and what to do.
+fn why_not(layer: &Layer, hold: Hold, koma: usize, clock: Clock) -> &'static str {
+    if koma > hold.koma {
+        "none is left to follow it, or one would be on screen too briefly; pin what should follow it sooner"
+    } else if is_last(layer, hold, clock) {
+        "it is the last drawing, and the motion ends there; to hold longer, raise its koma in sheet.json and give that \
+         to genga deliver"
+    } else {
+        "the next genga stands there, or none would stay for one koma; move or forbid that genga to hold longer"
+    }
+}
+
+/// Whether a hold is of a layer's last drawing.
+fn is_last(layer: &Layer, hold: Hold, clock: Clock) -> bool {
+    let held = held_drawing(layer, hold, clock);
+    held.is_some() && held == layer.exposures.last()
+}
+
+/// Builds the note for a hold without a drawing near its frame; it names the one that is on screen there.
+fn unfound(hold: Hold, layers: &[Layer]) -> String {
+    let Hold { frame, koma } = hold;
+    let place = |drawing: &Drawing| drawing.source.place();
+    let drawings = layers.iter().flat_map(|layer| &layer.drawings).map(place);
+    let before = drawings.filter(|place| *place <= frame.0 as f64).max_by(f64::total_cmp);
+    let shown = before.map_or_else(String::new, |place| {
+        let place = place.round();
+        format!("that of frame {place} is on screen: --hold {place}:{koma} holds it; ")
+    });
+    format!(
+        "no drawing is within two koma of frame {frame}, so none stays for {koma} koma; {shown}--pin {frame} makes one \
+         there"
+    )
 }
 
 /// Returns a sentence for each forbidden frame or range that changes nothing in any of its layers: no key was found

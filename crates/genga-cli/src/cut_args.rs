@@ -33,25 +33,44 @@ pub(super) struct CutArgs {
     ///
     /// Those before it are blank (カラ). A motion stands in its first pose there.
     #[arg(long, value_name = "KOMA", value_parser = koma, allow_negative_numbers = true, help_heading = SHEET)]
-    at: Option<usize>,
-    /// Koma of the whole cut: --length 72
+    at: Option<Koma>,
+    /// Koma of the whole cut: --length 72, or 3+0 in seconds and koma
     ///
     /// Those after the drawings are blank (カラ). A motion stands in its last pose there.
     #[arg(long, value_name = "KOMA", value_parser = koma, allow_negative_numbers = true, help_heading = SHEET)]
-    length: Option<usize>,
+    length: Option<Koma>,
 }
 
-fn koma(text: &str) -> Result<usize, String> {
-    let number = text.trim().parse().ok().filter(|koma| *koma > 0);
-    number
-        .ok_or_else(|| format!("expected a number of koma, 1 or more, as in 25, found \"{text}\""))
+/// A number of koma, also as seconds and koma: 3+0.
+#[derive(Debug, Clone, Copy)]
+struct Koma {
+    seconds: usize,
+    koma: usize,
+}
+
+impl Koma {
+    /// Counts the koma at a rate of koma per second.
+    fn count(self, rate: f64) -> usize {
+        ((self.seconds as f64 * rate).round() as usize).saturating_add(self.koma)
+    }
+}
+
+fn koma(text: &str) -> Result<Koma, String> {
+    let (seconds, koma) = text.split_once('+').unwrap_or(("0", text));
+    let number = |text: &str| text.trim().parse::<usize>().ok();
+    let both = number(seconds).zip(number(koma)).filter(|both| *both != (0, 0));
+    both.map(|(seconds, koma)| Koma { seconds, koma }).ok_or_else(|| {
+        format!(
+            "expected a number of koma, 1 or more, as in 25, or seconds and koma, as in 3+0; found \"{text}\""
+        )
+    })
 }
 
 impl CutArgs {
     /// Puts the cut over that of a recipe.
-    pub(super) fn put(&self, edits: &mut Edits) {
-        edits.at = self.at.or(edits.at);
-        edits.length = self.length.or(edits.length);
+    pub(super) fn put(&self, edits: &mut Edits, rate: f64) {
+        edits.at = self.at.map(|koma| koma.count(rate)).or(edits.at);
+        edits.length = self.length.map(|koma| koma.count(rate)).or(edits.length);
         edits.slate = self.slate().over(std::mem::take(&mut edits.slate));
     }
 
@@ -60,7 +79,9 @@ impl CutArgs {
         let slate = self.slate();
         slate.validate()?;
         sheet.slate = slate.over(sheet.slate);
-        sheet.placed(self.at, self.length)
+        let count = |koma: Option<Koma>| koma.map(|koma| koma.count(sheet.clock.koma_rate));
+        let (at, length) = (count(self.at), count(self.length));
+        sheet.placed(at, length)
     }
 
     fn slate(&self) -> Slate {
