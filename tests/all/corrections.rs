@@ -35,6 +35,41 @@ fn corrections_of_a_folder_add_up_until_a_fresh_run() {
 }
 
 #[test]
+fn a_later_move_to_a_frame_replaces_an_earlier_one() {
+    let place = Place::new();
+    place.done("run data/kick.bvh --move 73:75 --out a");
+    let said = place.said("run data/kick.bvh --move 71:75 --out a");
+    assert!(said.contains("replaced or not of this clip any more: move 73:75\n"), "{said}");
+    assert!(said.contains("move 71:75: genga 12"), "{said}");
+    let said = place.said("run data/kick.bvh --recipe a/recipe.toml --move 73:75 --out b");
+    assert!(said.contains("no key is found at frame 73"), "{said}");
+    let said = place.refused(2, "run data/kick.bvh --move 71:75,73:75 --out a");
+    assert!(said.contains("frame 75 is pinned or moved to twice"), "{said}");
+}
+
+#[test]
+fn a_hold_that_is_not_kept_says_why() {
+    let place = Place::new();
+    let said = place.said("run data/kick.bvh --length 100 --hold 91:17 --out a");
+    assert!(
+        said.contains("stays for 9: it is the last drawing, and the motion ends there"),
+        "{said}"
+    );
+    let said = place.said("run data/tennis.bvh --hold 87:12 --out b");
+    assert!(said.contains("that of frame 66 is on screen"), "{said}");
+    let said = place.said("run data/kick.bvh --layers limbs --hold 42:6 --out c");
+    assert!(
+        said.contains("A/42 was to stay for 6 koma and stays for 7: none is left to follow"),
+        "{said}"
+    );
+    let said = place.refused(2, "run data/kick.bvh --layers limbs --hold B/42:6 --out c");
+    assert!(
+        said.contains("a drawing is held in all layers, not in B alone: --hold 42:6"),
+        "{said}"
+    );
+}
+
+#[test]
 fn settings_that_do_not_stay_are_given_back_by_the_words_of_the_note() {
     let place = Place::new();
     let asked = "--set spacing.on=2 --root-on ones --layers limbs --set B/spacing.on=3";
@@ -49,7 +84,10 @@ fn settings_that_do_not_stay_are_given_back_by_the_words_of_the_note() {
     // A list has spaces, which a shell would part.
     place.done("run data/kick.bvh --within 20..40:spacing.on=1 --out c");
     let said = place.said("run data/kick.bvh --out c");
-    assert!(said.contains(" --set 'passages=[{ frames = [20, 40], spacing.on = 1 }]'\n"), "{said}");
+    assert!(
+        said.contains(" --set \"passages=[{ frames = [20, 40], spacing.on = 1 }]\"\n"),
+        "{said}"
+    );
 }
 
 #[test]

@@ -8,6 +8,7 @@ use clap::{CommandFactory, Parser};
 
 use super::commands::Args;
 use super::paths::{first_clip, is_motion};
+use super::shell::quoted;
 
 /// Largest number of clips that a tip lists. If there are more, it lists only the first and the last.
 const MOST_WORDS: usize = 4;
@@ -48,22 +49,18 @@ fn tip(error: &clap::Error) -> Option<String> {
 fn many(other: &str) -> String {
     let is_clip = |word: &String| word == other || is_motion(Path::new(word));
     let words = std::env::args_os().skip(2).map(|word| word.to_string_lossy().into_owned());
-    let mut words: Vec<String> = words.filter(is_clip).map(quoted).collect();
+    let mut words: Vec<String> = words.filter(is_clip).map(|word| quoted(&word)).collect();
     if words.len() > MOST_WORDS {
         words.splice(1..words.len() - 1, ["…".into()]);
     }
     format!("it takes one clip at a time; of many: genga batch {} --out library", words.join(" "))
 }
 
-/// Quotes a word if a shell requires it.
-fn quoted(word: String) -> String {
-    if word.contains([' ', '(', ')', '&', ';', '$', '\'']) { format!("\"{word}\"") } else { word }
-}
-
 /// Suggests `genga run` if the first word is a clip, or a folder of them, instead of a command.
 fn clip_of(path: &Path) -> Option<String> {
     let clip = if path.is_dir() { first_clip(path)? } else { path.to_owned() };
-    (is_motion(&clip) || clip.is_file()).then(|| format!("type: genga run {}", clip.display()))
+    (is_motion(&clip) || clip.is_file())
+        .then(|| format!("type: genga run {}", quoted(&clip.display().to_string())))
 }
 
 /// Suggests the commands that begin with the same letter as a misspelled word.

@@ -7,6 +7,7 @@ use super::failure::Failure;
 use super::files;
 use super::format_args::shortened;
 use super::plan::Plan;
+use super::shell::quoted;
 use genga::edits::{Edits, Forbidden, Move, Pin};
 use genga::pipeline::Engine;
 use genga::recipe::Recipe;
@@ -57,16 +58,7 @@ fn lost_settings(before: &Recipe, now: &Recipe) -> Vec<String> {
         there.is_none_or(|there| usual.contains(there))
     };
     let lost = before.iter().filter(is_lost).filter(is_reset);
-    lost.map(|(name, word)| option(name, word)).collect()
-}
-
-/// The option that sets a setting, in quotes if a shell would take it apart.
-fn option(name: &str, word: &str) -> String {
-    let is_plain = |letter: char| letter.is_alphanumeric() || "./-_%+,:".contains(letter);
-    match name.chars().chain(word.chars()).all(is_plain) {
-        true => format!("--set {name}={word}"),
-        false => format!("--set '{name}={}'", word.replace('\'', r"'\''")),
-    }
+    lost.map(|(name, word)| format!("--set {}", quoted(&format!("{name}={word}")))).collect()
 }
 
 /// Leaves out what this part of the clip, or these layers, do not have.

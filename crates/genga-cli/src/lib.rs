@@ -44,6 +44,7 @@ mod pin_args;
 mod plan;
 mod results;
 mod sheets;
+mod shell;
 mod staging;
 mod stop;
 

@@ -9,6 +9,7 @@ use super::super::failure::Failure;
 use super::super::folder::{digest, is_behind_link};
 use super::super::format_args::Overwrites;
 use super::super::paths;
+use super::super::shell::quoted;
 use super::super::staging::Staging;
 
 /// Folder that holds a folder per clip.
@@ -137,7 +138,7 @@ fn would_be_lost(files: &[String]) -> Failure {
     // A comma separates names, so none can have one.
     let way = match files.iter().any(|file| file.contains(',')) {
         true => String::new(),
-        false => format!(", or write over it with --overwrite {}", files.join(",")),
+        false => format!(", or write over it with --overwrite {}", quoted(&files.join(","))),
     };
     Failure::AskedWrongly(format!(
         "{}: this file is not as a batch wrote it{more}, and would be lost; move it{way}",

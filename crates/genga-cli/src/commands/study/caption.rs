@@ -6,9 +6,10 @@ use std::fmt::Write;
 use super::StudyArgs;
 use crate::failure::Failure;
 use crate::paths;
+use crate::shell::quoted;
 use genga::edits::Edits;
 use genga::recipe::Recipe;
-use genga_lab::study::{Axis, Grid, Measure, Study};
+use genga_lab::study::{Axis, Grid, Measure, Noise, Study};
 
 /// Refuses `--caption` and `--per-second` without a picture.
 pub(super) fn check(args: &StudyArgs) -> Result<(), Failure> {
@@ -69,6 +70,12 @@ impl Drawn {
             };
             let _ = write!(text, " A {rows} for each value of {}.", varied(y));
         }
+        let names: Vec<&str> =
+            [Some(&study.x), study.y.as_ref()].into_iter().flatten().map(Axis::name).collect();
+        if names.contains(&"noise") && !names.contains(&"noise.seed") {
+            let seed = Noise::default().seed;
+            let _ = write!(text, " The noise is that of noise.seed {seed}.");
+        }
         let over = match clips {
             0 | 1 => "",
             _ if !self.curves => " Of several clips the median.",
@@ -119,14 +126,6 @@ fn command() -> String {
     ["genga".to_owned()].into_iter().chain(words).collect::<Vec<_>>().join(" ")
 }
 
-fn quoted(word: &str) -> String {
-    let is_plain = |letter: char| letter.is_alphanumeric() || "-_./=,:%+@".contains(letter);
-    if !word.is_empty() && word.chars().all(is_plain) {
-        return word.to_owned();
-    }
-    format!("'{}'", word.replace('\'', "'\\''"))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -136,10 +135,10 @@ mod tests {
         for (word, written) in [
             ("--x", "--x"),
             ("filter.width=0.1s..0.3s:0.1s", "filter.width=0.1s..0.3s:0.1s"),
-            ("two words", "'two words'"),
-            ("it's", "'it'\\''s'"),
-            ("*.bvh", "'*.bvh'"),
-            ("", "''"),
+            ("two words", "\"two words\""),
+            ("it's", "\"it's\""),
+            ("*.bvh", "\"*.bvh\""),
+            ("", "\"\""),
         ] {
             assert_eq!(quoted(word), written);
         }
