@@ -73,7 +73,7 @@ pub const FORMATS: &[Format] = &[
         read: acclaim::read,
     },
     Format {
-        name: "TRC, C3D",
+        name: MARKERS,
         // Folder searches skip these formats, since they cannot be read.
         endings: &[],
         holds: "points, which are no skeleton: they are refused",
@@ -108,7 +108,10 @@ impl Format {
     pub(super) fn detect(head: &[u8], path: Option<&Path>) -> &'static Self {
         let by_content = FORMATS.iter().find(|format| (format.begins)(head));
         let by_ending = || FORMATS.iter().find(|format| path.is_some_and(|path| format.ends(path)));
-        by_content.or_else(by_ending).unwrap_or(&FORMATS[0])
+        let is_c3d =
+            path.and_then(Path::extension).is_some_and(|own| own.eq_ignore_ascii_case("c3d"));
+        let refused_by_ending = || FORMATS.iter().find(|format| is_c3d && format.name == MARKERS);
+        by_content.or_else(by_ending).or_else(refused_by_ending).unwrap_or(&FORMATS[0])
     }
 
     /// Whether a path has an extension of this format.
@@ -143,6 +146,9 @@ fn is_points(head: &[u8]) -> bool {
     head.starts_with(b"PathFileType")
         || matches!(head, [2..=10, 0x50, _, _, ..]) && head.len() >= 512
 }
+
+/// The formats of markers.
+const MARKERS: &str = "TRC, C3D";
 
 /// Message for marker files.
 const POINTS: &str = "these are the paths of markers and no skeleton: solve them in the program of the capture, and give what \
