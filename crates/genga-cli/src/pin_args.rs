@@ -47,7 +47,7 @@ pub(super) fn marked(
     let of_file = files::fault_of(path);
     let marked = match Kind::detect(&name, &bytes) {
         Kind::Timesheet => of_timesheet(&bytes, &name, column, engine, (recipe, edits))?,
-        Kind::Table => Marked::new(pins_from_table(&bytes, column).map_err(&of_file)?),
+        Kind::Table => of_table(&bytes, pins_from_table(&bytes, column).map_err(&of_file)?),
         Kind::Sheet => {
             let file = sheet_json::read(&bytes).map_err(&of_file)?;
             check_rate(&file, engine, &name)?;
@@ -69,6 +69,17 @@ pub(super) fn marked(
     }
     notes.extend(marked.notes);
     Ok(notes)
+}
+
+/// Rows of a table of keys that are no keys: its head, and the ends of the clip.
+const HEAD_AND_ENDS: usize = 3;
+
+/// Notes that a table with more than keys gives keys alone.
+fn of_table(bytes: &[u8], keys: (Vec<Pin>, String)) -> Marked {
+    let rows = bytes.split(|byte| *byte == b'\n').filter(|row| !row.trim_ascii().is_empty());
+    let has_others = rows.count() > keys.0.len() + HEAD_AND_ENDS;
+    let note = "from a table only keys are taken, not the timing: genga deliver takes that of a sheet.json";
+    Marked { notes: has_others.then(|| note.to_owned()).into_iter().collect(), ..Marked::new(keys) }
 }
 
 /// Returns the layer that a column's keys belong to: the layer of that name if there are several layers, else all.

@@ -4,12 +4,22 @@ use std::path::{Path, PathBuf};
 
 use super::console::Words;
 use super::failure::Failure;
-use super::{files, into_args};
+use super::{files, into_args, paths};
 use genga_files::sheet_json::{self, SheetFile};
 use genga_files::xdts;
 
 /// File name of the sheet in a results folder, which a person may have edited.
 pub(super) const SHEET: &str = "sheet.json";
+
+/// Message for a table, from which no timing is read.
+const OF_TABLES: &str = "a table is no sheet: a sheet is a sheet.json, or a timesheet of all drawings (XDTS such as \
+                         CUT_douga_ts.xdts, TDTS), and timing comes back by these; from a table come keys alone, by \
+                         genga run --pin-from";
+
+/// Whether a file is a table, by its name.
+fn is_table(path: &Path) -> bool {
+    matches!(paths::ending(path).as_deref(), Some("csv" | "tsv" | "txt"))
+}
 
 /// Returns the file of a sheet: that in a results folder, or the file itself.
 pub(super) fn file_of(path: &Path) -> Result<PathBuf, Failure> {
@@ -33,21 +43,26 @@ pub(super) fn read(
     (drawings, way_out): (Option<&Path>, &str),
     words: &Words,
 ) -> Result<SheetFile, Failure> {
+    let path = &*file_of(path)?;
     let (bytes, of_sheet) = (files::read(path)?, files::fault_of(path));
     if !xdts::is_timesheet(&bytes) {
         if drawings.is_some() {
             let message = "--drawings belongs to a timesheet, XDTS or TDTS, and this is none";
             return Err(Failure::AskedWrongly(message.into()));
         }
-        return sheet_json::read(&bytes).map_err(of_sheet);
+        return sheet_json::read(&bytes).map_err(|error| match is_table(path) {
+            true => Failure::AskedWrongly(format!("{}: {OF_TABLES}", paths::named(path).display())),
+            false => of_sheet(error),
+        });
     }
     let timesheet = xdts::read_cells(&bytes).map_err(&of_sheet)?;
-    let found = drawings.map(Path::to_owned).or_else(|| own_sheet(path)).ok_or_else(|| {
-        Failure::AskedWrongly(format!(
-            "{}: a timesheet has numbers alone, and no sheet.json is beside it: {way_out}",
-            path.display()
-        ))
-    })?;
+    let found =
+        drawings.map(file_of).transpose()?.or_else(|| own_sheet(path)).ok_or_else(|| {
+            Failure::AskedWrongly(format!(
+                "{}: a timesheet has numbers alone, and no sheet.json is beside it: {way_out}",
+                path.display()
+            ))
+        })?;
     let file = sheet_json::read(&files::read(&found)?).map_err(files::fault_of(&found))?;
     words.say(format_args!("drawings    動画       those of {}", found.display()));
     let unread = into_args::unread(&bytes, path)?;

@@ -1,6 +1,6 @@
 //! `genga deliver`: writes a sheet, edited or not, in other formats.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 
@@ -20,7 +20,7 @@ use genga_files::sheet_json::SheetFile;
 #[derive(Debug, Args)]
 #[command(after_help = help(), after_long_help = long_help())]
 pub(super) struct DeliverArgs {
-    /// The sheet: a sheet.json, or a timesheet of all drawings from another program (XDTS or TDTS); - is stdin.
+    /// The sheet: a sheet.json or its folder, or a timesheet of all drawings from another program (XDTS or TDTS); - is stdin.
     #[arg(value_name = "SHEET.json")]
     sheet: PathBuf,
     /// The motion that the sheet was made of, the whole file.
@@ -47,17 +47,18 @@ pub(super) struct DeliverArgs {
 }
 
 pub(super) fn run(args: &DeliverArgs, words: &Words) -> Result<(), Failure> {
+    let sheet = &*sheets::file_of(&args.sheet)?;
     let mut formats =
         Formats::new("to", &args.to, &[], &args.formats, args.reading.bones()?.as_ref())?;
-    if paths::is_stream(&args.sheet) && paths::is_stream(&args.clip) {
+    if paths::is_stream(sheet) && paths::is_stream(&args.clip) {
         let message = "sheet and clip cannot both come from stdin".into();
         return Err(Failure::AskedWrongly(message));
     }
     paths::check_folder(args.out.as_deref(), "deliver", "")?;
-    let folder = args.out.as_deref().unwrap_or_else(|| sheets::beside(&args.sheet));
-    formats.leave_sheet(&args.sheet, folder)?;
+    let folder = args.out.as_deref().unwrap_or_else(|| sheets::beside(sheet));
+    formats.leave_sheet(sheet, folder)?;
     formats.spare_edited(folder)?;
-    let mut file = read(args, words)?;
+    let mut file = read(args, sheet, words)?;
     file.sheet = args.cut.place(file.sheet).map_err(placed_wrongly)?;
     let bones = args.reading.bones.as_deref().map(|path| ("table of bones", path));
     let camera = args.reading.camera_work.as_deref().map(|path| ("camera", path));
@@ -70,7 +71,7 @@ pub(super) fn run(args: &DeliverArgs, words: &Words) -> Result<(), Failure> {
     if let (Some(path), false) = (args.into.file(), args.formats.over().is_forced) {
         paths::spare(&[("timesheet", Some(path))], &folder.join(paths::file_name(path)))?;
     }
-    let motion = args.reading.read_for((&args.sheet, &file), &args.clip, words)?;
+    let motion = args.reading.read_for((sheet, &file), &args.clip, words)?;
     let place = Folder::look(folder, args.formats.over());
     place.check(&motion.of)?;
     let cut = Cut {
@@ -117,9 +118,9 @@ pub(super) fn run(args: &DeliverArgs, words: &Words) -> Result<(), Failure> {
 }
 
 /// Reads the sheet, with the timing of an edited timesheet where the arguments name one.
-fn read(args: &DeliverArgs, words: &Words) -> Result<SheetFile, Failure> {
+fn read(args: &DeliverArgs, sheet: &Path, words: &Words) -> Result<SheetFile, Failure> {
     let way_out = "name the one that it came from with --drawings kick-genga/sheet.json";
-    sheets::read(&args.sheet, (args.drawings.as_deref(), way_out), words)
+    sheets::read(sheet, (args.drawings.as_deref(), way_out), words)
 }
 
 fn placed_wrongly(error: Error) -> Failure {
