@@ -261,14 +261,8 @@ fn omit_does_what_the_second_paper_counts() {
         ));
         let said = text(&output.stderr);
         assert!(output.status.success(), "{name}: {said}");
-        assert!(
-            said.contains(&format!("{naka_nashi} of {naka_nashi} inbetweens left out")),
-            "{said}"
-        );
-        assert!(
-            said.contains(&format!("{koma_dori} of {koma_dori} inbetweens held over")),
-            "{said}"
-        );
+        assert!(said.contains(&format!("{naka_nashi} of {naka_nashi} koma left out")), "{said}");
+        assert!(said.contains(&format!("{koma_dori} of {koma_dori} koma held over")), "{said}");
         let drawings = column(&read(&place.path(&format!("{name}.csv"))), "drawing");
         let held = drawings.windows(2).filter(|pair| pair[0] == pair[1]).count();
         assert_eq!(held, naka_nashi + koma_dori, "{name}");
@@ -1380,4 +1374,50 @@ fn what_never_ends_is_read_up_to_a_limit_and_work_keeps_within_its_own() {
             refused.contains("data/kick.bvh: 23 joints in 92 frames and on 92 koma take about");
         assert!(of && refused.contains("--memory 1 allows it"), "{work}: {refused}");
     }
+}
+
+#[test]
+fn a_results_folder_is_delivered_by_its_sheet_and_a_table_is_refused() {
+    let place = Place::new();
+    place.done("run data/kick.bvh --deliver xdts --out a");
+    place.done("deliver a data/kick.bvh --to remap --out b");
+    assert_eq!(
+        fs::read(place.path("b/remap.csv")).unwrap(),
+        fs::read(place.path("a/remap.csv")).unwrap()
+    );
+    place.done("deliver a/kick_douga_ts.xdts data/kick.bvh --drawings a --to remap --out c");
+    let said = place.refused(2, "deliver a/sheet.csv data/kick.bvh --to remap");
+    assert!(
+        said.contains("a/sheet.csv: a table is no sheet") && said.contains("--pin-from"),
+        "{said}"
+    );
+    let note = "from a table only keys are taken, not the timing";
+    assert!(place.said("run data/kick.bvh --pin-from a/sheet.csv --out d").contains(note));
+    assert!(!place.said("run data/kick.bvh --pin-from a/keys.csv --out e").contains(note));
+}
+
+#[test]
+fn a_file_of_markers_is_refused_as_such_by_its_name() {
+    let place = Place::new();
+    fs::write(place.path("short.C3D"), [2, 0x50, 0]).unwrap();
+    let said = place.refused(1, "run short.C3D");
+    assert!(said.contains("short.C3D: these are the paths of markers and no skeleton"), "{said}");
+}
+
+#[test]
+fn a_length_is_also_taken_as_seconds_and_koma() {
+    let place = Place::new();
+    let said = place.said("run data/kick.bvh --at 1+0 --length 5+1 --out a");
+    assert!(said.contains("koma 1 to 23 and 116 to 121 of 121"), "{said}");
+    place.said("deliver a data/kick.bvh --length 5+2 --to remap --out b");
+    place.refused(2, "run data/kick.bvh --length 0+0 --out a");
+}
+
+#[test]
+fn omit_writes_a_sheet_alone_and_a_caption_names_the_seed() {
+    let place = Place::new();
+    place.done("omit data/kick.bvh --sheet sheet.csv");
+    place.done("study data/kick.bvh --x noise=0,1 --heat map.svg --caption a.md --out a.csv");
+    let caption = fs::read_to_string(place.path("a.md")).unwrap();
+    assert!(caption.contains("noise.seed 0"), "{caption}");
 }

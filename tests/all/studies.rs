@@ -124,7 +124,10 @@ fn genga_are_counted_one_way_with_the_first_and_the_last_drawing() {
         let said = text(&place.genga(&format!("run data/{name}.bvh --out {name}")).stderr);
         let file = |file: &str| fs::read_to_string(place.path(&format!("{name}/{file}"))).unwrap();
         let genga = column(&file("keys.csv"), "genga_no").len();
-        assert!(said.contains(&format!("{genga}, first and last among them")), "{name}: {said}");
+        assert!(
+            said.contains(&format!("{genga}, first and last drawing among them")),
+            "{name}: {said}"
+        );
         assert!(file("report.json").contains(&format!("\"genga\": {genga},")), "{name}");
         assert!(file("sheet.svg").contains(&format!("  {genga} genga  ")), "{name}");
         let study = "--x rate=24 --measure genga,genga_per_second";

@@ -22,7 +22,7 @@ fn as_many_genga_and_drawings_as_asked_for() {
     let said = text(&said.stderr);
     assert!(said.contains("found       keys.min_price="), "{said}");
     assert!(
-        said.contains("16, first and last among them")
+        said.contains("16, first and last drawing among them")
             && said.contains(", 23 drawings, 6.0 a second"),
         "{said}"
     );

@@ -272,7 +272,7 @@ fn of_gait(gait: &GaitReport) -> String {
 fn of_body(words: &Words, report: &Report) {
     let koma = report.koma;
     // A loop has no ends.
-    let ends = if report.repeat.is_none() { ", first and last among them" } else { "" };
+    let ends = if report.repeat.is_none() { ", first and last drawing among them" } else { "" };
     words.say(format_args!(
         "genga       原画       {}{ends}, {:.1} a second",
         report.genga, report.genga_per_second
