@@ -73,7 +73,8 @@ def main():
     arrays = dict(names=read.names, parents=read.parents, offsets=read.offsets, rotations=rotations)
     arrays.update(root=np.array(read.positions[:, 0]), rate=rate)
 
-    table = genga.study(genga.Clip(**arrays))
+    counts = ["union", "total"]
+    table = genga.study(genga.Clip(**arrays), measures=counts)
     wanted = list(zip(table["union"].astype(int).tolist(), table["total"].astype(int).tolist()))
     found = six_cells(rotations, rate)
     if found != wanted:
@@ -81,7 +82,7 @@ def main():
 
     rows = {
         "NumPy, arrays → six cells": lambda: six_cells(rotations, rate),
-        "genga in Python, arrays → six cells": lambda: genga.study(genga.Clip(**arrays)),
+        "genga in Python, arrays → six cells": lambda: genga.study(genga.Clip(**arrays), measures=counts),
         "genga in Python, arrays → sheet": lambda: genga.run(genga.Clip(**arrays)).sheet,
         "genga in Python, file → sheet": lambda: genga.run(genga.read(path)).sheet,
     }

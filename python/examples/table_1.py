@@ -10,7 +10,7 @@ import genga
 clip = genga.read(sys.argv[1] if len(sys.argv) > 1 else "data/kick.bvh")
 table = genga.study(clip)
 print(f"{'W':>4} {'M':>4} {'union':>6} {'total':>6}")
-for w, m, union, total in zip(*table.values()):
+for w, m, union, total in zip(*(table[name] for name in ("filter.width", "turns.persistence", "union", "total"))):
     print(f"{w:>4} {m:>4} {union:6d} {total:6d}")
 
 try:

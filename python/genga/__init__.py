@@ -29,6 +29,7 @@ from ._genga import (
     study,
     tangents,
 )
+from ._study import Study
 
 _MutableMapping.register(Recipe)
 
@@ -39,6 +40,7 @@ __all__ = [
     "Recipe",
     "Result",
     "Sheet",
+    "Study",
     "__version__",
     "compare",
     "evaluate",

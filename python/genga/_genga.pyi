@@ -5,6 +5,8 @@ from typing import Any, Optional, TypedDict, Union, final
 import numpy as np
 import numpy.typing as npt
 
+from ._study import Study
+
 _Floats = npt.NDArray[np.float64]
 _Table = dict[str, npt.NDArray[Any]]
 _Frames = Union[int, str, tuple[Any, ...]]
@@ -279,10 +281,10 @@ def study(
     measures: Optional[Sequence[str]] = None,
     per_joint: bool = False,
     **settings: Any,
-) -> _Table: ...
+) -> Study: ...
 def evaluate(
     clip: _Source,
-    sheet: Union[str, bytes, Mapping[str, bytes]],
+    sheet: Union[Result, str, bytes, Mapping[str, bytes]],
     *,
     reference: Optional[Sequence[int]] = None,
     tolerance: float = 1.0,

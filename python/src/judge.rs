@@ -8,6 +8,7 @@ use genga::time::Frame;
 use genga_files::sheet_json;
 use genga_lab::quality::{Compare, Evaluation, Row};
 use genga_lab::study::{Axis, Grid, Measure, Noise, Study, is_table_1, table_1_recipe};
+use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList, PyTuple};
 
@@ -15,15 +16,20 @@ use crate::clip::{Clip, taken};
 use crate::error::{asked_wrongly, raised, warned};
 use crate::recipe::Recipe;
 use crate::table::{Column, plain, table};
-use crate::words::word;
+use crate::words::{settings, word};
 use crate::work;
 
 /// Varies one or two settings and measures the result for each combination. `x` and `y` are a name with its values:
 /// `("filter.width", "10..60:5")` or `("filter.width", [10, 20, 30])`. Without both, computes Table 1 of the first
-/// paper. Axes that are those of Table 1 have the paper's settings (`Recipe.table_1()`), all others the usual ones,
-/// unless a recipe is given. Returns a dict of columns with one row per combination: both settings (text), then one
-/// column for each of `measures` (`genga study --help` lists them). With `per_joint` the columns are `joint` and `keys`
-/// and the rows one per joint. Several clips, or motion files, have a column `clip` first.
+/// paper. Where the axes are both axes of Table 1 and nothing else (`filter.width` and `turns.persistence`, in
+/// either order, whatever their values), all other settings are the paper's, `Recipe.table_1()`; with any other axes,
+/// and with `filter.width` alone, they are those of `run`, `Recipe()`. A recipe that is given replaces either, and
+/// `settings` are applied to it. Returns a `genga.Study`: a dict of columns with one row per combination, whose
+/// attribute `recipe` is the recipe that was used. Its columns are both settings (text), then one for each of
+/// `measures` (`genga study --help` lists them), by default turns, genga, fills, union and total, or all measures if an
+/// axis is a setting of the sheet (`spacing`, `omission`). With `per_joint` the columns are `joint` and `keys` and the
+/// rows one per joint. Several clips, or motion files, have a column `clip` first. A setting that is also an axis raises
+/// `genga.Error`.
 #[pyfunction]
 #[pyo3(signature = (clip, recipe=None, *, x=None, y=None, measures=None, per_joint=false, **settings))]
 #[expect(clippy::too_many_arguments, reason = "each has a name in Python")]
@@ -36,8 +42,9 @@ pub fn study<'py>(
     measures: Option<Vec<String>>,
     per_joint: bool,
     settings: Option<&Bound<'py, PyDict>>,
-) -> PyResult<Bound<'py, PyDict>> {
+) -> PyResult<Bound<'py, PyAny>> {
     let (x, y) = axes(py, x, y)?;
+    not_set_too(py, &x, y.as_ref(), settings)?;
     let own = match is_table_1(&x, y.as_ref()) {
         true => table_1_recipe(),
         false => Recipe::default().recipe,
@@ -48,9 +55,10 @@ pub fn study<'py>(
         let message = "per_joint counts the keys of each joint: leave measures out";
         return Err(asked_wrongly(py, message));
     }
-    let measures = measures.unwrap_or_else(|| vec!["union".into(), "total".into()]);
-    let measures: std::result::Result<Vec<Measure>, _> =
-        measures.iter().map(|name| name.parse()).collect();
+    let measures = match measures {
+        Some(names) => names.iter().map(|name| name.parse()).collect(),
+        None => Ok(Measure::usual(&x, y.as_ref())),
+    };
     let measures = measures.map_err(|error| raised(py, error))?;
     let study = Study { recipe, x, y, measures, keep_keys: false, budget: Budget::default() };
     let (clips, are_several) = several(clip)?;
@@ -61,12 +69,39 @@ pub fn study<'py>(
         let counts = each(py, &study, &clips, |study, motion, stop| {
             study.joints_while(motion, || !stop.is_asked())
         })?;
-        return of_joints(py, (&study, names), &joints, &counts);
+        let table = of_joints(py, (&study, names), &joints, &counts)?;
+        return with_recipe(&table, study.recipe);
     }
     let grids = each(py, &study, &clips, |study, motion, stop| {
         study.run_while(motion, || !stop.is_asked())
     })?;
-    of_cells(py, (&study, names), &grids)
+    with_recipe(&of_cells(py, (&study, names), &grids)?, study.recipe)
+}
+
+/// Builds the `genga.Study` of a table and the recipe that was used.
+fn with_recipe<'py>(
+    table: &Bound<'py, PyDict>,
+    recipe: genga::recipe::Recipe,
+) -> PyResult<Bound<'py, PyAny>> {
+    let made = table.py().import("genga._study")?.getattr("Study")?.call1((table,))?;
+    made.setattr("recipe", Recipe { recipe, ..Recipe::default() })?;
+    Ok(made)
+}
+
+/// Refuses a setting that is both on an axis and given a value.
+fn not_set_too(
+    py: Python<'_>,
+    x: &Axis,
+    y: Option<&Axis>,
+    asked: Option<&Bound<'_, PyDict>>,
+) -> PyResult<()> {
+    let is_varied = |name: &str| [Some(x), y].into_iter().flatten().any(|axis| axis.name() == name);
+    match settings(asked)?.into_iter().find(|(name, _)| is_varied(name)) {
+        Some((name, _)) => {
+            Err(raised(py, genga::Error::setting(name, "a study varies it already")))
+        }
+        None => Ok(()),
+    }
 }
 
 /// Parses the axes; those of Table 1 by default.
@@ -201,9 +236,11 @@ fn of_joints<'py>(
     Ok(made)
 }
 
-/// Evaluates a sheet (the text of a `sheet.json`, or the dict of `Result.to_json()`) against its clip. `reference` are
-/// key frames that somebody else chose; a key within `tolerance` koma of one counts as the same. Returns nested dicts
-/// like the output of `genga eval --json`. Errors are in % of body height.
+/// Evaluates a sheet (a `genga.Result`, the dict of `Result.to_json()`, or the text of a `sheet.json`) against its
+/// clip. `reference` are key frames that somebody else chose; a key within `tolerance` koma of one counts as the same.
+/// Returns nested dicts like the output of `genga eval --json`; the scores against `reference` are in it under `timing`
+/// (`f1`, `precision`, `recall` and more), which is None without `reference`. Errors are in % of body height. Anything
+/// else as a sheet raises `TypeError`.
 #[pyfunction]
 #[pyo3(signature = (clip, sheet, *, reference=None, tolerance=1.0))]
 pub fn evaluate<'py>(
@@ -213,12 +250,7 @@ pub fn evaluate<'py>(
     reference: Option<Vec<usize>>,
     tolerance: f64,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let sheet = match sheet.cast::<PyDict>() {
-        Ok(files) => files.as_any().get_item("sheet.json")?,
-        Err(_) => sheet.clone(),
-    };
-    let text: Vec<u8> =
-        sheet.extract::<String>().map(String::into_bytes).or_else(|_| sheet.extract())?;
+    let text = text_of(sheet)?;
     let reference: Option<Vec<Frame>> =
         reference.map(|frames| frames.into_iter().map(Frame).collect());
     let motion = taken(clip)?.get().motion.clone();
@@ -231,6 +263,25 @@ pub fn evaluate<'py>(
     let (evaluation, notes) = made.map_err(|error| raised(py, error))?;
     notes.iter().try_for_each(|note| warned(py, note))?;
     plain(py, &evaluation)
+}
+
+/// Returns the text of a sheet that is given as a result, as its files or as the text.
+fn text_of(sheet: &Bound<'_, PyAny>) -> PyResult<Vec<u8>> {
+    let files = match sheet.is_instance_of::<crate::result::Result>() {
+        true => sheet.call_method0("to_json")?,
+        false => sheet.clone(),
+    };
+    let text = match files.cast::<PyDict>() {
+        Ok(files) => files.as_any().get_item("sheet.json")?,
+        Err(_) => files,
+    };
+    let bytes = text.extract::<String>().map(String::into_bytes).or_else(|_| text.extract());
+    bytes.map_err(|_| {
+        let kind = sheet.get_type();
+        PyTypeError::new_err(format!(
+            "expected a genga.Result, the dict of its to_json() or the text of a sheet.json, not {kind}"
+        ))
+    })
 }
 
 /// Chooses the same number of keys by several methods, and evaluates each. `keys` lists the numbers of keys, without

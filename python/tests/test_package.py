@@ -423,6 +423,45 @@ def test_a_study_is_the_programs(clip, tmp_path):
     assert own["spacing.on"].tolist() == ["1", "2", "3"] and own["drawings"][0] > own["drawings"][2]
 
 
+def test_a_study_counts_what_the_program_counts(clip):
+    asked = {"spacing.on": "1,2", "omission.naka_nashi": "0,2,4", "filter.width": "10,20", "": ""}
+    for name, values in asked.items():
+        axis = [f"--x={name}={values}"] if name else []
+        out = subprocess.run([PROGRAM, "study", str(KICK), *axis], check=True, capture_output=True, text=True)
+        header, *rows = [line.split(",") for line in out.stdout.splitlines()]
+        table = genga.study(clip, x=(name, values)) if name else genga.study(clip)
+        measures = list(table)[1 if name else 2 :]
+        assert [column for column in header if column in measures] == measures and len(measures) >= 5, name
+        assert not set(header[-len(measures) :]) - set(measures), name
+        for measure in measures:
+            of_program = [float(row[header.index(measure)]) for row in rows]
+            assert np.allclose(of_program, table[measure], atol=1e-3), (name, measure)
+    assert "drawings" in genga.study(clip, x=("spacing.on", [1, 2])) and "drawings" not in genga.study(clip)
+
+
+@pytest.mark.parametrize(
+    "axes, settings",
+    [
+        ({}, {"filter__width": 50}),
+        ({"x": ("keys.min_price", [5])}, {"keys__min_price": 99}),
+        ({"x": ("rate", [12]), "y": ("filter.width", [5])}, {"filter": {"width": 50}}),
+    ],
+)
+def test_a_setting_that_a_study_varies_is_refused(axes, settings, clip):
+    with pytest.raises(genga.Error, match=r"(filter.width|keys.min_price): a study varies it already"):
+        genga.study(clip, **axes, **settings)
+
+
+def test_a_study_names_its_recipe(clip):
+    width = ("filter.width", [10, 20, 30])
+    table = genga.study(clip)
+    assert isinstance(table, genga.Study) and isinstance(table, dict)
+    assert table.recipe == genga.study(clip, per_joint=True).recipe == genga.Recipe.table_1()
+    assert genga.study(clip, x=width).recipe == genga.Recipe()
+    assert genga.study(clip, x=width, rate=12).recipe == genga.Recipe(rate=12)
+    assert pickle.loads(pickle.dumps(table)).recipe == table.recipe
+
+
 def same_table(a, b):
     assert list(a) == list(b)
     for name in a:
@@ -523,6 +562,9 @@ def test_evaluation_and_comparison(clip):
     found = genga.evaluate(clip, result.to_json(), reference=genga_on_sheet.tolist())
     assert found["pace"]["drawings"] == len(set(result.sheet.exposures["drawing"].tolist()))
     assert found["timing"]["f1"] == 1.0 and 0 < found["shown"]["mean"] < 10
+    assert genga.evaluate(clip, result, reference=genga_on_sheet.tolist()) == found
+    with pytest.raises(TypeError, match="expected a genga.Result, .* not <class 'int'>"):
+        genga.evaluate(clip, 7)
     table = genga.compare(clip, keys=[6], noise=0.0)
     assert set(table["asked"]) >= {6} and np.isnan(table["steady"]).all()
 

@@ -22,9 +22,6 @@ use genga::recipe::{Kind, Knob, Recipe};
 use genga_lab::study::{self, Axis, Grid, Measure, Plateau, Study};
 use genga_plot::{HeatMap, StudyPlot};
 
-/// Sections of the recipe that change the sheet and not the keys.
-const OF_THE_SHEET: [&str; 2] = ["spacing", "omission"];
-
 /// Parser for the kinds of filter.
 fn filters() -> PossibleValuesParser {
     let kind = Knob::find("filter.kind").map(|knob| knob.kind);
@@ -48,7 +45,7 @@ pub(super) struct StudyArgs {
     /// Second setting to vary, for each value of the first [default: turns.persistence=5,10; none with --x].
     #[arg(long, value_name = "KNOB=VALUES")]
     y: Option<Axis>,
-    /// Filter widths, in source frames or seconds: --x filter.width=VALUES.
+    /// Filter widths, in source frames or seconds: like --x filter.width=VALUES, but --y keeps its default.
     #[arg(long, value_name = "VALUES", value_parser = filter_width, conflicts_with = "x")]
     filter_width: Option<Axis>,
     /// Persistences, in source frames or seconds: --y turns.persistence=VALUES.
@@ -108,8 +105,10 @@ fn study_help() -> String {
     });
     format!(
         "Axes:\n  KNOB is any setting of `genga recipe`, or noise (degrees of Gaussian noise on every rotation) \
-         or\n  noise.seed (0, unless it varies). VALUES is a list; FROM..TO:STEP is a range, which includes TO if a step lands on \
-         it.\n  Values keep their units: 0.1s..0.5s:0.05s. With the axes of Table 1 of the first paper, \
+         or
+  noise.seed (0, unless it varies). VALUES is a list; FROM..TO:STEP is a range, which includes TO if a \
+         step
+  lands on it. Values keep their units: 0.1s..0.5s:0.05s. With both axes of Table 1 of the first paper, \
          filter.width and\n  turns.persistence, the recipe is that of Table 1 (`genga recipe --study`), else and \
          with --stability\n  that of `genga run`; --recipe goes over both.\n\n\
          Measures:{}\n\n\
@@ -255,7 +254,7 @@ fn asked(args: &StudyArgs) -> Result<Study, Failure> {
         not_set_too(args, axis)?;
     }
     let mut measures =
-        if args.measure.is_empty() { usual(&x, y.as_ref()) } else { args.measure.clone() };
+        if args.measure.is_empty() { Measure::usual(&x, y.as_ref()) } else { args.measure.clone() };
     let shown_too = args.shown().filter(|show| !measures.contains(show));
     measures.extend(shown_too);
     if args.stability && x.len() * y.as_ref().map_or(1, Axis::len) < 2 {
@@ -300,28 +299,16 @@ fn not_set_too(args: &StudyArgs, axis: &Axis) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The measures counted by default.
-fn usual(x: &Axis, y: Option<&Axis>) -> Vec<Measure> {
-    let of_the_sheet =
-        |axis: &Axis| axis.knob().path().0.is_some_and(|section| OF_THE_SHEET.contains(&section));
-    if of_the_sheet(x) || y.is_some_and(of_the_sheet) {
-        return Measure::ALL.to_vec();
-    }
-    vec![Measure::Turns, Measure::Genga, Measure::Fills, Measure::Union, Measure::Total]
-}
-
 /// The measure drawn by default: genga if keys are compared, what Table 1 counts with its axes, else the first measure
 /// that the axes can change.
 fn usually_shown(study: &Study) -> Measure {
-    let sections = |axis: &Axis| axis.knob().path().0;
-    let axes = [Some(&study.x), study.y.as_ref()].into_iter().flatten();
-    let sections: Vec<&str> = axes.filter_map(sections).collect();
-    let varies = |names: &[&str]| names.iter().any(|name| sections.contains(name));
+    let varies = |is_of: fn(&Axis) -> bool| is_of(&study.x) || study.y.as_ref().is_some_and(is_of);
+    let varies_keys = varies(|axis| axis.knob().path().0 == Some("keys"));
     let is_table_1 = study::is_table_1(&study.x, study.y.as_ref());
     let wanted = match study.keep_keys {
         false if is_table_1 => Measure::Union,
-        false if varies(&OF_THE_SHEET) => Measure::Drawings,
-        false if !varies(&["keys"]) => study.measures[0],
+        false if varies(Axis::is_of_the_sheet) => Measure::Drawings,
+        false if !varies_keys => study.measures[0],
         _ => Measure::Genga,
     };
     if study.measures.contains(&wanted) { wanted } else { study.measures[0] }

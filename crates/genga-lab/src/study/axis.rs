@@ -8,6 +8,9 @@ use genga::error::Error;
 use genga::recipe::{Kind, Knob, Recipe};
 use genga::time::{FrameRate, Span};
 
+/// Sections of the recipe that change the sheet and not the keys.
+const OF_THE_SHEET: [&str; 2] = ["spacing", "omission"];
+
 /// A setting and the values it takes in a study, written `filter.width=10..60:5`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Axis {
@@ -88,6 +91,11 @@ impl Axis {
     /// Returns the setting's name.
     pub fn name(&self) -> &'static str {
         self.knob.name
+    }
+
+    /// Whether the setting changes the sheet and not the keys.
+    pub fn is_of_the_sheet(&self) -> bool {
+        self.knob.path().0.is_some_and(|section| OF_THE_SHEET.contains(&section))
     }
 
     /// Returns the values, each as a recipe writes it.

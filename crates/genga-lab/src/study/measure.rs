@@ -5,7 +5,7 @@ use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
 
-use crate::study::{total, union};
+use crate::study::{Axis, total, union};
 use genga::error::Error;
 use genga::keys::{BodyTurns, LayerKeys, Origin};
 use genga::maths::median;
@@ -88,6 +88,14 @@ impl Measure {
         Self::PeakSsd,
         Self::MedianSsd,
     ];
+
+    /// Returns the measures of a study that names none: those of turns and keys; all if a setting of the sheet varies.
+    pub fn usual(x: &Axis, y: Option<&Axis>) -> Vec<Self> {
+        if x.is_of_the_sheet() || y.is_some_and(Axis::is_of_the_sheet) {
+            return Self::ALL.to_vec();
+        }
+        vec![Self::Turns, Self::Genga, Self::Fills, Self::Union, Self::Total]
+    }
 
     /// Returns its name, which is also that of its column.
     pub fn name(self) -> &'static str {
