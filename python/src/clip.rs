@@ -71,6 +71,15 @@ impl Clip {
         stem.map_or("cut".into(), |stem| stem.to_string_lossy().into_owned())
     }
 
+    /// The warnings as the program writes them.
+    pub fn notes(&self) -> Vec<String> {
+        let of_one = |(code, message, place): &Told| {
+            let place = place.map(|(line, column)| format!("{line}:{column}: "));
+            format!("{}{message} [{code}]", place.unwrap_or_default())
+        };
+        self.warnings.iter().map(of_one).collect()
+    }
+
     /// The names of the joints.
     pub fn joints(&self) -> Vec<String> {
         self.motion.skeleton().joints.iter().map(|joint| joint.name.clone()).collect()

@@ -1,12 +1,20 @@
 //! A person's corrections: pins, forbidden frames, moves and holds.
 
+use std::str::FromStr;
+
 use genga::Error;
 use genga::edits::{Edits, Forbidden, Hold, Move, Pin};
 use pyo3::prelude::*;
-use pyo3::types::PyTuple;
+use pyo3::types::{PyString, PyTuple};
 
 use crate::error::raised;
 use crate::words::word;
+
+/// Each correction as Python writes it.
+const PINS: &str = "a frame, as in 42, (42, \"contact\") or \"42:contact@0.5\"";
+const FORBID: &str = "a frame or a range without its end, as in 42, (120, 140) or \"120..140\"";
+const MOVES: &str = "two frames, as in (41, 42) or \"41:42\"";
+const HOLDS: &str = "a frame and a number of koma, as in (41, 6) or \"41:6\"";
 
 /// Corrections given as arguments, besides those of the recipe. Each is a frame, a tuple, or text as in the program:
 /// `42:contact@0.5`.
@@ -26,27 +34,40 @@ pub struct Corrections<'py> {
 
 impl Corrections<'_> {
     /// Adds them to the existing corrections.
-    pub fn add_to(&self, py: Python<'_>, edits: &mut Edits) -> PyResult<()> {
-        let parsed = |error: Error| raised(py, error);
+    pub fn add_to(&self, edits: &mut Edits) -> PyResult<()> {
         for pin in &self.pins {
-            edits.pins.push(Pin::parse(&joined(pin, ":")?).map_err(parsed)?);
+            let made = Pin::parse(&joined(pin, ":")?);
+            edits.pins.push(made.map_err(|error| wrongly("pins", PINS, pin, error))?);
         }
         for frames in &self.forbid {
-            edits.forbidden.push(joined(frames, "..")?.parse().map_err(
-                |error: <Forbidden as std::str::FromStr>::Err| {
-                    raised(py, Error::Edits { message: error.to_string() })
-                },
-            )?);
+            let made = joined(frames, "..")?.parse();
+            edits.forbidden.push(made.map_err(|error: <Forbidden as FromStr>::Err| {
+                let error = Error::Edits { message: error.to_string() };
+                wrongly("forbid", FORBID, frames, error)
+            })?);
         }
         for moved in &self.moves {
-            edits.moves.push(Move::parse(&joined(moved, ":")?).map_err(parsed)?);
+            let made = Move::parse(&joined(moved, ":")?);
+            edits.moves.push(made.map_err(|error| wrongly("moves", MOVES, moved, error))?);
         }
         for hold in &self.holds {
-            edits.holds.push(Hold::parse(&joined(hold, ":")?).map_err(parsed)?);
+            let made = Hold::parse(&joined(hold, ":")?);
+            edits.holds.push(made.map_err(|error| wrongly("holds", HOLDS, hold, error))?);
         }
         edits.only_pins |= self.only_pins;
         Ok(())
     }
+}
+
+/// Builds the exception of a correction: text has the program's notation, all else is told in Python's.
+fn wrongly(name: &str, expected: &str, value: &Bound<'_, PyAny>, error: Error) -> PyErr {
+    let py = value.py();
+    let message = match (error, value.repr()) {
+        (Error::Edits { message }, _) if value.is_instance_of::<PyString>() => message,
+        (Error::Edits { .. }, Ok(found)) => format!("expected {expected}, found {found}"),
+        (other, _) => return raised(py, other),
+    };
+    raised(py, Error::setting(name, message))
 }
 
 /// Joins a tuple into the program's notation.

@@ -38,7 +38,8 @@ pub fn raised_of(py: Python<'_>, error: genga::Error, file: Option<&Path>) -> Py
     });
     let file = file.map(|file| file.display().to_string());
     let between = if place.is_some() { ":" } else { ": " };
-    let message = file.as_ref().map_or(error.to_string(), |file| format!("{file}{between}{error}"));
+    let told = in_python(&error.to_string());
+    let message = file.as_ref().map_or(told.clone(), |file| format!("{file}{between}{told}"));
     let exception = Error::new_err(message);
     let value = exception.value(py);
     let set = value
@@ -49,6 +50,14 @@ pub fn raised_of(py: Python<'_>, error: genga::Error, file: Option<&Path>) -> Py
         Ok(()) => exception,
         Err(other) => other,
     }
+}
+
+/// Replaces options of the program that are arguments of `read`.
+fn in_python(message: &str) -> String {
+    let message = message.replace("--repair", "repair=True");
+    ["fps", "root", "take", "trim"]
+        .iter()
+        .fold(message, |message, name| message.replace(&format!("--{name} "), &format!("{name} ")))
 }
 
 /// Issues a Python warning at the caller's line.

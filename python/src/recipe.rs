@@ -65,14 +65,13 @@ impl Recipe {
     #[pyo3(signature = (*, pins=vec![], forbid=vec![], moves=vec![], holds=vec![], only_pins=false))]
     fn correct<'py>(
         &mut self,
-        py: Python<'py>,
         pins: Vec<Bound<'py, PyAny>>,
         forbid: Vec<Bound<'py, PyAny>>,
         moves: Vec<Bound<'py, PyAny>>,
         holds: Vec<Bound<'py, PyAny>>,
         only_pins: bool,
     ) -> PyResult<()> {
-        Corrections { pins, forbid, moves, holds, only_pins }.add_to(py, &mut self.edits)
+        Corrections { pins, forbid, moves, holds, only_pins }.add_to(&mut self.edits)
     }
 
     /// Returns the recipe file as the program writes it.

@@ -1,16 +1,17 @@
 //! A run: the sheet and all intermediate results.
 
+use std::collections::HashSet;
 use std::fs;
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex};
 
 use genga::keys::Key;
-use genga::motion::Joint;
+use genga::motion::{Description, Joint};
 use genga::pipeline::{Breakdown, Engine, LayerBreakdown, Stop};
 use genga::sheet::{Drawing, Layer, Role};
 use genga::signal::{Signals, Turn, TurnKind};
 use genga::target::{Outcome, Target, meet};
-use genga_files::{Format, Report, Settings, limited};
+use genga_files::{Format, Report, Settings, limited, run_notes};
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict, PyType};
@@ -47,7 +48,8 @@ pub struct Sheet {
     /// Length of the sheet in koma, K.
     koma: usize,
     /// One row per drawing: `layer`, `drawing` (its number in the layer, from 0), `place` (source frame, fractional),
-    /// `role` (genga, inbetween, end), `reason`, `strength`, `price` (% of body height), `why`.
+    /// `role` (genga, inbetween, end), `reason`, `strength`, `price` (% of body height, as in `Result.keys`; infinite
+    /// for a drawing that always stays, NaN for an inbetween), `why`.
     drawings: Py<PyDict>,
     /// One row per exposure: `layer`, `begin` (koma from 0), `koma` (length), `drawing`.
     exposures: Py<PyDict>,
@@ -105,7 +107,7 @@ pub fn run<'py>(
     settings: Option<&Bound<'py, PyDict>>,
 ) -> PyResult<Result> {
     let mut asked = recipe.unwrap_or_default().with(py, settings)?;
-    Corrections { pins, forbid, moves, holds, only_pins }.add_to(py, &mut asked.edits)?;
+    Corrections { pins, forbid, moves, holds, only_pins }.add_to(&mut asked.edits)?;
     let targets = targets_of(py, targets)?;
     let clip = taken(clip)?;
     let own = clip.get();
@@ -311,10 +313,23 @@ impl Result {
         self.look(py, of_all)
     }
 
-    /// The figures of `report.json`.
+    /// The figures of `report.json`, as nested dicts and lists. `notes` are sentences about the clip, the targets and
+    /// the corrections, as the program writes them. What the program notes of files it reads or writes is not in it.
     #[getter]
     fn report<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let report = self.look(py, |breakdown| Ok(Report::new(breakdown, Vec::new())))?;
+        let mut notes = self.clip.get().notes();
+        let motion = Arc::clone(&self.clip.get().motion);
+        let is_loop = self.settings.recipe.r#loop;
+        let short = self.outcomes.iter().filter(|outcome| outcome.shortfall.is_some());
+        let short: Vec<String> = short.map(ToString::to_string).collect();
+        let edits = self.settings.edits.clone();
+        let report = self.look(py, move |breakdown| {
+            notes.extend(Description::notes(&motion).iter().map(ToString::to_string));
+            notes.extend(run_notes::of_cycle(&motion, is_loop));
+            notes.extend(short);
+            notes.extend(run_notes::of_corrections(&edits, breakdown));
+            Ok(Report::new(breakdown, notes))
+        })?;
         plain(py, &report)
     }
 
@@ -423,6 +438,14 @@ impl Sheet {
     ) -> Self {
         Self { rate, koma, drawings, exposures }
     }
+
+    fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
+        let column = |name| -> PyResult<_> { self.exposures.bind(py).as_any().get_item(name) };
+        let layers: Vec<String> = column("layer")?.call_method0("tolist")?.extract()?;
+        let numbers: Vec<usize> = column("drawing")?.call_method0("tolist")?.extract()?;
+        let shown: HashSet<_> = layers.iter().zip(numbers).collect();
+        Ok(format!("<genga.Sheet: {} koma, {} drawings>", self.koma, shown.len()))
+    }
 }
 
 impl Sheet {
@@ -500,10 +523,19 @@ fn drawings<'py>(py: Python<'py>, layers: &[Layer]) -> PyResult<Bound<'py, PyDic
                 ),
             ),
             ("strength", Column::numbers(of_each().map(|drawing| number(drawing.why.strength)))),
-            ("price", Column::numbers(of_each().map(|drawing| number(drawing.why.price)))),
+            ("price", Column::numbers(of_each().map(price_of))),
             ("why", Column::words(of_each().map(|drawing| drawing.why.to_string()))),
         ],
     )
+}
+
+/// The price of a drawing as its key has it: infinite for one that always stays, NaN for an inbetween.
+fn price_of(drawing: &Drawing) -> f64 {
+    match drawing.role {
+        Role::Inbetween => f64::NAN,
+        Role::Genga => drawing.why.price.unwrap_or(f64::INFINITY),
+        Role::End => f64::INFINITY,
+    }
 }
 
 fn exposures<'py>(py: Python<'py>, layers: &[Layer]) -> PyResult<Bound<'py, PyDict>> {

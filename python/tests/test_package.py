@@ -237,6 +237,27 @@ def test_targets_are_those_of_the_program(clip, tmp_path):
         genga.run(clip, targets={"frames": 9})
 
 
+@pytest.mark.parametrize(
+    "path, keys, corrections, says",
+    [
+        (REAL / "cmu-09_01-run.bvh", None, [], "W_LEAD_IN"),
+        (REAL.parent / "keyed" / "db-mecha_2903d-death.bvh", 9, [], "W_BODY_GUESS"),
+        (KICK, None, ["--move", "3:33", "--forbid", "4", "--hold", "4:9"], "none was moved to 33"),
+        (KICK, 500, [], "500"),
+    ],
+)
+def test_the_notes_of_a_report_are_those_of_the_program(path, keys, corrections, says, tmp_path):
+    if not path.exists():
+        pytest.skip(f"LEFT OUT: the Python package does not look at {path.name}")
+    asked = ["--keys", str(keys)] if keys else []
+    program(path, tmp_path / "program", *asked, *corrections, "--deliver", "json")
+    told = json.loads((tmp_path / "program" / "report.json").read_text(encoding="utf-8"))
+    own = dict(moves=[(3, 33)], forbid=[4], holds=[(4, 9)]) if corrections else {}
+    result = genga.run(path, targets={"keys": keys}, **own)
+    assert result.report["notes"] == told["notes"] and says in " ".join(told["notes"])
+    assert pickle.loads(pickle.dumps(result)).report == result.report
+
+
 def test_the_sheet_covers_every_koma(clip):
     sheet = genga.run(clip).sheet
     begins, koma = sheet.exposures["begin"], sheet.exposures["koma"]
@@ -317,6 +338,26 @@ def test_knobs_say_what_the_recipe_takes():
     assert speaks["spacing.weight"]["most"] == 1.0 and speaks["keys.per_second"]["most"] == math.inf
 
 
+def test_a_sheet_says_how_long_it_is(clip):
+    result = genga.run(clip, omission={"naka_nashi": 4})
+    assert repr(result.sheet) == repr(result).replace("Result kick", "Sheet")
+    limbs = genga.run(clip, layers="limbs")
+    assert repr(limbs.sheet) == repr(limbs).replace("Result kick", "Sheet")
+
+
+@pytest.mark.parametrize("name", ["kick", *CLIPS])
+def test_keys_and_drawings_have_the_same_price(name):
+    path = KICK if name == "kick" else REAL / f"{name}.bvh"
+    if not path.exists():
+        pytest.skip(f"LEFT OUT: the Python package does not look at {name}")
+    result = genga.run(path)
+    drawings = result.sheet.drawings
+    kept = drawings["role"] != "inbetween"
+    assert drawings["price"][kept].tolist() == result.keys["price"].tolist()
+    assert np.isnan(drawings["price"][~kept]).all()
+    assert np.isinf(result.keys["price"]).any()
+
+
 def test_every_format_has_its_method(clip):
     result = genga.run(clip)
     for form in genga.formats():
@@ -356,6 +397,30 @@ def test_errors_say_file_line_and_column(tmp_path):
     assert (caught.value.file, caught.value.line) == (None, 3)
     with pytest.raises(genga.Error, match="pinned frame 1000 is not in the clip"):
         genga.run(genga.read(KICK), pins=[1000])
+
+
+@pytest.mark.parametrize(
+    "corrections, says",
+    [
+        ({"pins": [-3]}, r'pins: expected a frame, as in 42, .* found -3'),
+        ({"pins": ["a"]}, 'pins: expected FRAME.* found "a"'),
+        ({"forbid": [(5, "a")]}, r"forbid: expected a frame or a range .* found \(5, 'a'\)"),
+        ({"moves": [4]}, "moves: expected two frames, .* found 4"),
+        ({"holds": [(4, 1.5)]}, r"holds: expected a frame and a number of koma, .* found \(4, 1.5\)"),
+    ],
+)
+def test_wrong_corrections_are_told_in_python(corrections, says, clip):
+    with pytest.raises(genga.Error, match=says):
+        genga.run(clip, **corrections)
+
+
+def test_options_of_the_program_are_told_as_arguments():
+    text = KICK.read_text(encoding="utf-8")
+    row = text.rstrip().rsplit("\n", 1)[1]
+    with pytest.raises(genga.Error, match="; repair=True holds the value before it"):
+        genga.read(text.replace(row, row.replace(row.split()[5], "nan", 1)).encode())
+    with pytest.raises(genga.Error, match="; fps "):
+        genga.read("\n".join("Frame Time: 24" if "Frame Time" in line else line for line in text.splitlines()).encode())
 
 
 def test_wrong_arrays_are_refused_in_words(clip):

@@ -11,12 +11,8 @@ use super::headings::{CORRECTIONS, SHEET};
 use super::{files, paths};
 use genga::edits::{Edits, Forbidden, Hold, Move, Pin, Speech, layer_of};
 use genga::error::Error;
-use genga::keys::{Key, Origin};
-use genga::pipeline::{Breakdown, LayerBreakdown};
 use genga::recipe::Recipe;
-use genga::sheet::{Drawing, Layer};
-use genga::time::{Clock, Frame};
-use genga::timing::{held_drawing, held_for};
+use genga::time::Frame;
 
 /// The recipe: a file, then single settings on top.
 #[derive(Debug, Clone, Args)]
@@ -316,132 +312,6 @@ fn hold(text: &str) -> Result<Hold, Failure> {
         ))),
         (None, _) => Hold::parse(text).map_err(|error| wrongly("hold", error)),
     }
-}
-
-/// Returns a sentence for each move that found no key to move in any of its layers.
-pub(super) fn unmoved(edits: &Edits, breakdown: &Breakdown<'_>) -> Vec<String> {
-    let layers: Vec<_> = breakdown.layers().collect();
-    let of_all = edits.moves.iter().map(|moved| (moved, None));
-    let of_one = edits
-        .layers
-        .iter()
-        .flat_map(|(name, own)| own.moves.iter().map(move |moved| (moved, Some(name.as_str()))));
-    let said = of_all.chain(of_one).filter_map(|(moved, name)| {
-        let meant = layers.iter().filter(|own| name.is_none_or(|name| own.layer.name == name));
-        let keys: Vec<&[Key]> = meant.map(|own| own.keys.keys.as_slice()).collect();
-        let is_moved = |key: &Key| key.origin == Origin::Moved { from: moved.from };
-        let is_idle = !keys.iter().any(|keys| keys.iter().any(is_moved));
-        is_idle.then(|| unmoved_one(moved, name, keys.first().copied().unwrap_or_default()))
-    });
-    said.collect()
-}
-
-/// Builds the note for a move without a key at its source; it names the nearest keys.
-fn unmoved_one(moved: &Move, layer: Option<&str>, keys: &[Key]) -> String {
-    let (from, to) = (moved.from, moved.to);
-    let after = keys.partition_point(|key| key.frame < from);
-    let round = &keys[after.saturating_sub(1)..keys.len().min(after + 1)];
-    let round: Vec<String> = round.iter().map(|key| key.frame.to_string()).collect();
-    let nearest = match round.as_slice() {
-        [] => String::new(),
-        [only] => format!(" (the nearest is at {only})"),
-        both => format!(" (the nearest are at {})", both.join(" and ")),
-    };
-    let layer = layer.map_or_else(String::new, |name| format!("{name}/"));
-    format!(
-        "no key is found at frame {layer}{from}{nearest}, so none was moved to {to}; --pin {layer}{to} makes one there"
-    )
-}
-
-/// Returns a sentence for each hold that a layer could not keep exactly, and for each that found no drawing.
-pub(super) fn unheld(edits: &Edits, breakdown: &Breakdown<'_>) -> Vec<String> {
-    let layers = &breakdown.sheet.layers;
-    let mut said = Vec::new();
-    for hold in &edits.holds {
-        let (frame, asked) = (hold.frame, hold.koma);
-        let stays = |layer| held_for(layer, *hold, breakdown.clock);
-        let found: Vec<_> = layers.iter().filter_map(|own| Some((own, stays(own)?))).collect();
-        if found.is_empty() {
-            said.push(unfound(*hold, layers));
-        }
-        for (layer, koma) in found.into_iter().filter(|(_, koma)| *koma != asked) {
-            let of = if layers.len() > 1 { format!("{}/", layer.name) } else { String::new() };
-            let why = why_not(layer, *hold, koma, breakdown.clock);
-            said.push(format!(
-                "the drawing of frame {of}{frame} was to stay for {asked} koma and stays for {koma}: {why}"
-            ));
-        }
-    }
-    said
-}
-
-/// Says why a held drawing stays longer or shorter than asked, and what to do.
-fn why_not(layer: &Layer, hold: Hold, koma: usize, clock: Clock) -> &'static str {
-    if koma > hold.koma {
-        "none is left to follow it, or one would be on screen too briefly; pin what should follow it sooner"
-    } else if is_last(layer, hold, clock) {
-        "it is the last drawing, and the motion ends there; to hold longer, raise its koma in sheet.json and give that \
-         to genga deliver"
-    } else {
-        "the next genga stands there, or none would stay for one koma; move or forbid that genga to hold longer"
-    }
-}
-
-/// Whether a hold is of a layer's last drawing.
-fn is_last(layer: &Layer, hold: Hold, clock: Clock) -> bool {
-    let held = held_drawing(layer, hold, clock);
-    held.is_some() && held == layer.exposures.last()
-}
-
-/// Builds the note for a hold without a drawing near its frame; it names the one that is on screen there.
-fn unfound(hold: Hold, layers: &[Layer]) -> String {
-    let Hold { frame, koma } = hold;
-    let place = |drawing: &Drawing| drawing.source.place();
-    let drawings = layers.iter().flat_map(|layer| &layer.drawings).map(place);
-    let before = drawings.filter(|place| *place <= frame.0 as f64).max_by(f64::total_cmp);
-    let shown = before.map_or_else(String::new, |place| {
-        let place = place.round();
-        format!("that of frame {place} is on screen: --hold {place}:{koma} holds it; ")
-    });
-    format!(
-        "no drawing is within two koma of frame {frame}, so none stays for {koma} koma; {shown}--pin {frame} makes one \
-         there"
-    )
-}
-
-/// Returns a sentence for each forbidden frame or range that changes nothing in any of its layers: no key was found
-/// near it, and none was looked for elsewhere because of it.
-pub(super) fn idle(edits: &Edits, breakdown: &Breakdown<'_>) -> Vec<String> {
-    let koma = breakdown.clock.frames_in_koma();
-    let of_all = edits.forbidden.iter().map(|frames| (frames, None));
-    let of_one = edits.layers.iter().flat_map(|(name, own)| {
-        own.forbidden.iter().map(move |frames| (frames, Some(name.as_str())))
-    });
-    let layers: Vec<_> = breakdown.layers().collect();
-    let said = of_all.chain(of_one).filter(|(frames, layer)| {
-        let mut meant = layers.iter().filter(|own| layer.is_none_or(|name| own.layer.name == name));
-        !meant.any(|own| has_an_effect(**frames, own, koma))
-    });
-    said.map(|(frames, layer)| {
-        let layer = layer.map_or_else(String::new, |name| format!("{name}/"));
-        format!("no key is found near frame {layer}{frames}, so there was none to forbid")
-    })
-    .collect()
-}
-
-/// Whether the forbidden frames removed a key, or may have moved the search for one.
-fn has_an_effect(frames: Forbidden, own: &LayerBreakdown<'_>, koma: f64) -> bool {
-    let found = own.uncorrected;
-    if found.iter().any(|key| frames.reaches(key.frame, koma)) {
-        return true;
-    }
-    let keys = &own.keys.keys;
-    let after = keys.partition_point(|key| key.frame < frames.from);
-    let begin = after.checked_sub(1).map(|at| keys[at].frame);
-    let end = keys.get(after).map(|key| key.frame);
-    let is_inside =
-        |key: &&Key| begin.is_none_or(|at| at < key.frame) && end.is_none_or(|at| key.frame < at);
-    found.iter().any(|key| is_inside(&key))
 }
 
 #[cfg(test)]

@@ -33,6 +33,7 @@ mod reference_keys;
 mod remap;
 mod report;
 mod run_files;
+pub mod run_notes;
 mod settings;
 pub mod sheet_json;
 mod sts;

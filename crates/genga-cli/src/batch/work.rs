@@ -14,7 +14,7 @@ use super::super::failure::Failure;
 use super::super::format_args::Formats;
 use super::super::plan::{Plan, PlanArgs};
 use super::super::staging::Staging;
-use super::super::{corrections, files, paths, stop};
+use super::super::{files, paths, stop};
 use super::list::Item;
 use super::pack::Parcel;
 use super::place;
@@ -22,7 +22,7 @@ use super::row::{Line, Row};
 use genga::edits::Edits;
 use genga::error::Error;
 use genga::recipe::Recipe;
-use genga_files::{Drawings, Manifest, Report, Rows, Run};
+use genga_files::{Drawings, Manifest, Report, Rows, Run, run_notes};
 
 /// The options shared by all clips.
 pub(crate) struct Asked<'a> {
@@ -223,7 +223,7 @@ fn drawn(
     plan.settle(&mut engine, &mute, &mut |note| notes.push(note))?;
     let Plan { recipe, edits, .. } = &plan;
     let breakdown = engine.run_once(recipe, edits).map_err(files::fault_of(path))?;
-    notes.extend(corrections::unmoved(edits, &breakdown));
+    notes.extend(run_notes::unmoved(edits, &breakdown));
     let report = Report::new(&breakdown, notes);
     let name = paths::stem(path);
     let keys =

@@ -7,8 +7,8 @@ use clap::Args;
 use crate::console::Words;
 use crate::failure::Failure;
 use crate::plan::{Plan, PlanArgs};
-use crate::{camera_args, corrections, files, paths};
-use genga_files::{Drawings, Rows};
+use crate::{camera_args, files, paths};
+use genga_files::{Drawings, Rows, run_notes};
 
 #[derive(Debug, Args)]
 pub(super) struct KeysArgs {
@@ -35,8 +35,8 @@ pub(super) fn run(args: &KeysArgs, words: &Words) -> Result<(), Failure> {
     let (mut engine, _) = plan.read(&mut |warning| words.warn(warning))?;
     plan.settle(&mut engine, words, &mut |note| words.say(note))?;
     let breakdown = engine.run(&plan.recipe, &plan.edits).map_err(files::fault_of(clip))?;
-    let idle = corrections::idle(&plan.edits, &breakdown);
-    let unmoved = corrections::unmoved(&plan.edits, &breakdown);
+    let idle = run_notes::idle(&plan.edits, &breakdown);
+    let unmoved = run_notes::unmoved(&plan.edits, &breakdown);
     unmoved.iter().chain(&idle).for_each(|note| words.say(note));
     let table = if args.per_joint {
         genga_files::turns_csv(breakdown.clip.skeleton(), breakdown.filtered, breakdown.turns)?

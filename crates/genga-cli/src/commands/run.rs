@@ -13,13 +13,11 @@ use crate::format_args::{FormatArgs, FormatName, Formats, all_made, help, long_h
 use crate::numbers::Numbering;
 use crate::plan::{Plan, PlanArgs};
 use crate::results::{OWN, Outcome, Results};
-use crate::{camera_args, corrections, cut_args, files, kept, outcomes, paths, pin_args};
+use crate::{camera_args, cut_args, files, kept, outcomes, paths, pin_args};
 use genga::edits::Edits;
-use genga::keys::Cycle;
-use genga::motion::Clip;
 use genga::pipeline::Breakdown;
 use genga::recipe::Recipe;
-use genga_files::{GaitReport, LayerReport, LoopReport, Report, Run};
+use genga_files::{GaitReport, LayerReport, LoopReport, Report, Run, run_notes};
 
 #[derive(Debug, Args)]
 #[command(after_help = help(), after_long_help = long_help(), disable_help_flag = true, arg = help_flag())]
@@ -86,7 +84,7 @@ pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
         words.warn_if_quiet(warning);
         notes.push(warning.to_string());
     })?;
-    notes.extend(of_cycle(engine.clip(), plan.recipe.r#loop));
+    notes.extend(run_notes::of_cycle(engine.clip(), plan.recipe.r#loop));
     let place = Folder::look(&folder, args.formats.over());
     place.check(&of)?;
     let keeps =
@@ -102,9 +100,7 @@ pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
     };
     let breakdown = breakdown.with_sheet(&numbering.sheet);
     notes.extend(numbering.note.clone());
-    notes.extend(corrections::unmoved(edits, &breakdown));
-    notes.extend(corrections::unheld(edits, &breakdown));
-    notes.extend(corrections::idle(edits, &breakdown));
+    notes.extend(run_notes::of_corrections(edits, &breakdown));
 
     working.on("writing");
     let results = Results {
@@ -134,17 +130,6 @@ pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
     left.notes().iter().for_each(|note| words.say(format_args!("note        {note}")));
     words.say(format_args!("files       {}: {}", folder.display(), files.join(" ")));
     all_made(&unmade)
-}
-
-/// Says that a clip can be repeated, or that the seam of a loop shows.
-fn of_cycle(clip: &Clip, is_loop: bool) -> Option<String> {
-    if !is_loop {
-        return Cycle::note(clip).map(|note| note.to_string());
-    }
-    let Cycle { pose, speed, .. } = Cycle::of_clip(clip).filter(|cycle| !cycle.is_closed())?;
-    Some(format!(
-        "the seam of the loop may show: the last pose is {pose:.1} % of body height and {speed:.0} % a second off the first"
-    ))
 }
 
 /// Refuses to overwrite an input or an edited sheet.
