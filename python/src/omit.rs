@@ -11,9 +11,11 @@ use genga::time::KOMA_RATE;
 use genga::timing::{Omission, Omitted as Left, Order, Stills};
 use genga_files::limited;
 use pyo3::prelude::*;
+use pyo3::types::PyType;
 
 use crate::clip::{Clip, taken};
 use crate::error::{raised, warned};
+use crate::pickle::Reduced;
 use crate::result::Sheet;
 use crate::words::word;
 use crate::work;
@@ -92,6 +94,27 @@ pub fn omit(
 
 #[pymethods]
 impl Omitted {
+    /// For pickle.
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        let made = py.get_type::<Self>().getattr("_from_parts")?;
+        let Self { frames, n_io, n_hf, seconds, sheet, limited } = self;
+        let parts = (*frames, *n_io, *n_hf, *seconds, sheet.bind(py), limited.bind(py));
+        Ok((made, parts.into_pyobject(py)?.into_any()))
+    }
+
+    #[classmethod]
+    fn _from_parts(
+        _class: &Bound<'_, PyType>,
+        frames: usize,
+        n_io: usize,
+        n_hf: usize,
+        seconds: f64,
+        sheet: Py<Sheet>,
+        limited: Py<Clip>,
+    ) -> Self {
+        Self { frames, n_io, n_hf, seconds, sheet, limited }
+    }
+
     fn __repr__(&self) -> String {
         let Self { frames, n_io, n_hf, .. } = self;
         format!("<genga.Omitted: {frames} frames, {n_io} left out, {n_hf} held>")

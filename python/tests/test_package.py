@@ -815,6 +815,10 @@ def test_everything_can_be_pickled(clip):
     assert again.recipe == result.recipe and again.clip.to_bvh() == clip.to_bvh()
     told = genga.read(result.to_vrma()["kick.vrma"])
     assert pickle.loads(pickle.dumps(told)).warnings == told.warnings != []
+    omitted = genga.omit(clip, naka_nashi=6)
+    other = pickle.loads(pickle.dumps(omitted))
+    assert repr(other) == repr(omitted) and other.seconds == omitted.seconds
+    assert other.limited.to_bvh() == omitted.limited.to_bvh() and repr(other.sheet) == repr(omitted.sheet)
     sheet = pickle.loads(pickle.dumps(result.sheet))
     assert (sheet.rate, sheet.koma) == (result.sheet.rate, result.sheet.koma)
     assert sheet.drawings["why"].tolist() == result.sheet.drawings["why"].tolist()
