@@ -48,6 +48,13 @@ fn a_later_move_to_a_frame_replaces_an_earlier_one() {
 }
 
 #[test]
+fn a_pin_names_only_genga_that_stood_on_the_sheet() {
+    let place = Place::new();
+    let said = place.said("run data/kick.bvh --pin 12 --only-pins --out a");
+    assert!(said.contains("pin 12: genga 2 in place of 15 and 21 and 28"), "{said}");
+}
+
+#[test]
 fn a_hold_that_is_not_kept_says_why() {
     let place = Place::new();
     let said = place.said("run data/kick.bvh --length 100 --hold 91:17 --out a");

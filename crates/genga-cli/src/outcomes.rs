@@ -141,11 +141,20 @@ impl Outcomes<'_> {
         begins.any(|from| (from.0.abs_diff(frame.0) as f64) < koma)
     }
 
+    /// Whether a rest ends at a frame: the drawing with which it begins is held there, so no genga of its own stood on
+    /// the sheet.
+    fn ends_rest(&self, frame: Frame) -> bool {
+        let rests = &self.own.keys.rests;
+        rests.iter().any(|rest| *rest.end() == frame)
+            && rests.iter().all(|rest| *rest.start() != frame)
+    }
+
     /// Frames of the keys that a pin took the place of.
     fn lost_near(&self, frame: Frame) -> Vec<String> {
         let (before, after) = self.between(frame);
         let is_near = |at: &Frame| before.is_none_or(|b| b < *at) && after.is_none_or(|a| *at < a);
-        let lost = self.lost().filter(is_near).filter(|at| !self.is_moved(*at));
+        let lost = self.lost().filter(is_near);
+        let lost = lost.filter(|at| !self.is_moved(*at) && !self.ends_rest(*at));
         lost.map(|at| at.to_string()).collect()
     }
 
