@@ -869,6 +869,23 @@ fn edit(sheet: &Path) -> Vec<u8> {
 }
 
 #[test]
+fn another_timing_beside_that_of_the_run_is_told() {
+    let place = Place::new();
+    place.done("run data/kick.bvh --out a --deliver xdts");
+    fs::copy(place.path("a/sheet.json"), place.path("edited.json")).unwrap();
+    edit(&place.path("edited.json"));
+    let said = |args: &str| text(&place.genga(args).stderr);
+    let into_run = said("deliver edited.json data/kick.bvh --out a --to bars");
+    assert!(into_run.contains("keeps the timing of its sheet.json; --out DIR"), "{into_run}");
+    for same in [
+        "deliver edited.json data/kick.bvh --out b --to bars",
+        "deliver a/kick_douga_ts.xdts data/kick.bvh --to bars",
+    ] {
+        assert!(!said(same).contains("keeps the timing"), "{same}");
+    }
+}
+
+#[test]
 fn nothing_is_written_over_a_sheet_that_was_edited() {
     let place = Place::new();
     place.done("run data/kick.bvh --out a");

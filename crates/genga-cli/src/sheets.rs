@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use super::console::Words;
 use super::failure::Failure;
 use super::{files, into_args, paths};
+use genga::sheet::{Layer, Sheet};
 use genga_files::sheet_json::{self, SheetFile};
 use genga_files::xdts;
 
@@ -34,6 +35,23 @@ pub(super) fn file_of(path: &Path) -> Result<PathBuf, Failure> {
     Err(Failure::AskedWrongly(format!(
         "{path}: there is no sheet.json in this folder; name a results folder of genga run, or a sheet"
     )))
+}
+
+/// Says that the sheet.json of a folder has another timing than a sheet that is delivered into it, and so has what the
+/// run wrote there.
+pub(super) fn of_another_timing(folder: &Path, sheet: &Sheet) -> Option<String> {
+    let own = sheet_json::read(&files::read(&folder.join(SHEET)).ok()?).ok()?.sheet;
+    let timing = |sheet: &Sheet| -> Vec<Vec<_>> { sheet.layers.iter().map(shown).collect() };
+    (timing(&own) != timing(sheet)).then(|| {
+        "what the run wrote here keeps the timing of its sheet.json; --out DIR gives this timing a folder of its own"
+            .into()
+    })
+}
+
+/// The place in the source and the koma of each exposure of a layer.
+fn shown(layer: &Layer) -> Vec<(f64, usize)> {
+    let place = |drawing: usize| layer.drawings[drawing].source.place();
+    layer.exposures.iter().map(|shown| (place(shown.drawing), shown.koma)).collect()
 }
 
 /// Reads a sheet. The drawings of a timesheet are those of the sheet.json that is named, or that lies beside it or up
