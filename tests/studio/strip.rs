@@ -112,6 +112,35 @@ fn a_figure_is_pinned_forbidden_and_let_go_where_it_stands() {
 }
 
 #[test]
+fn a_double_click_takes_one_genga_away() {
+    // Narrow, so that the figures stand close.
+    let mut table =
+        Table::in_window(((500, 400), 1.0), Arc::default(), Language::English, Theme::Light);
+    table.open(&sample("kick.bvh"));
+    let genga = table.genga();
+    let mut under = 0;
+    for koma in &genga[1..genga.len() - 1] {
+        table.harness.hover_at(table.on_strip(koma - 1, 0.5));
+        table.harness.run_steps(2);
+        let strip = table.strip();
+        let cross = |table: &Table| {
+            let mut buttons = table.harness.query_all_by_label("Forbid").map(|node| node.rect());
+            buttons.find(|rect| strip.intersects(*rect))
+        };
+        let Some(button) = cross(&table) else { continue };
+        table.click_at(button.center(), PointerButton::Primary);
+        table.click_at(button.center(), PointerButton::Primary);
+        assert_eq!(table.edits().forbidden.len(), 1, "koma {koma}");
+        table.harness.hover_at(button.center() + vec2(0.0, 1.0));
+        table.harness.run_steps(2);
+        under += usize::from(cross(&table).is_some_and(|other| other.contains(button.center())));
+        table.tap(Modifiers::COMMAND, Key::Z);
+        assert!(table.edits().is_empty());
+    }
+    assert!(under > 0, "no genga came under the pointer, so that this shows nothing");
+}
+
+#[test]
 fn a_genga_without_room_for_its_figure_has_its_buttons_all_the_same() {
     let mut table =
         Table::in_window(((640, 400), 1.0), Arc::default(), Language::English, Theme::Light);

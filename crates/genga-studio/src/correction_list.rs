@@ -121,10 +121,7 @@ fn keys_of(
         let forbidden = words.say("forbidden", "禁止");
         let what = match range.is_one() {
             true => format!("{forbidden} {}", shown.named(range.from)),
-            false => {
-                let [from, to] = shown.ends(*range);
-                format!("{forbidden} {}–{}", shown.named(from), shown.number_of(to))
-            }
+            false => format!("{forbidden} {}", shown.named_ban(*range)),
         };
         let at = Some(range.from).filter(|frame| shown.breakdown.clip.contains(*frame));
         row(what, at, Correction::Allow(*range));

@@ -127,8 +127,8 @@ impl Of<'_> {
             return;
         }
         let forbidden = self.edits.forbidden_of(self.column);
-        // The range bans what lies in it, itself among them.
-        forbidden.retain(|other| other.from < range.from || range.past < other.past);
+        // A ban within another one stays: each genga that was taken away has its own, and comes back by it.
+        forbidden.retain(|other| *other != range);
         forbidden.push(range);
         forbidden.sort_by_key(|range| range.from);
     }
@@ -254,6 +254,10 @@ mod tests {
         assert_eq!(edits.forbidden, [range]);
         let again = Correction::Forbid(key(41, Origin::Turn), range).on(&edits, None);
         assert_eq!(again, edits, "once is enough");
+        let wide = Forbidden { from: Frame(30), past: Frame(60) };
+        let both = Correction::Forbid(key(33, Origin::Turn), wide).on(&edits, None);
+        assert_eq!(both.forbidden, [wide, range], "a ban for each genga");
+        assert_eq!(Correction::Allow(wide).on(&both, None), edits, "the other stays away");
         let moved = Correction::Move(key(41, Origin::Turn), Frame(43)).on(&Edits::default(), None);
         let gone =
             Correction::Forbid(key(43, Origin::Moved { from: Frame(41) }), range).on(&moved, None);

@@ -7,7 +7,7 @@ mod layout;
 mod pointer;
 mod track;
 
-use egui::{Id, Rect, Role, Sense, Stroke, Ui, WidgetInfo};
+use egui::{Id, Pos2, Rect, Role, Sense, Stroke, Ui, WidgetInfo};
 
 use self::figures::Passage;
 use self::layout::Layout;
@@ -39,6 +39,9 @@ pub(super) struct Strip {
     followed: usize,
     /// The genga under the pointer, and since when.
     hovered: Option<Passage>,
+    /// Where the pointer was when a button was clicked. Until it moves it is over no genga, so that a second click does
+    /// nothing to the one that comes there.
+    clicked: Option<Pos2>,
     /// Whether the view is to go to the action at the play head, or to the whole.
     wants_zoom: bool,
 }
@@ -117,15 +120,27 @@ impl Strip {
         // The buttons on a figure lie over the strip, and are as much a part of it.
         let is_over = ui.rect_contains_pointer(layout.rect) && !is_dragged;
         let at = ui.input(|input| input.pointer.hover_pos()).filter(|_| is_over);
-        let cell = at.and_then(|at| layout.cell(at, figured, shown));
+        self.clicked = self.clicked.filter(|clicked| Some(*clicked) == at);
+        let cell =
+            at.filter(|_| self.clicked.is_none()).and_then(|at| layout.cell(at, figured, shown));
         let now = ui.input(|input| input.time);
         self.hovered = Passage::under(cell, self.hovered.take(), now);
     }
 
     /// Shows the buttons of the genga under the pointer, and asks for a frame when its passage has another koma.
-    fn play(&self, ui: &mut Ui, layout: &Layout, shown: &Shown<'_>, commands: &mut Vec<Command>) {
+    fn play(
+        &mut self,
+        ui: &mut Ui,
+        layout: &Layout,
+        shown: &Shown<'_>,
+        commands: &mut Vec<Command>,
+    ) {
         let Some(passage) = &self.hovered else { return };
+        let given = commands.len();
         figures::buttons(ui, passage, layout, shown, commands);
+        if commands.len() > given {
+            self.clicked = ui.input(|input| input.pointer.hover_pos());
+        }
         let now = ui.input(|input| input.time);
         if let Some(wait) = passage.wait(now, shown) {
             ui.ctx().request_repaint_after_secs(wait);

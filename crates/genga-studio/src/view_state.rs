@@ -122,20 +122,46 @@ impl<'a> Shown<'a> {
         [ban.from, self.frame(ban.past.0 as f64 - 1.0)]
     }
 
+    /// The first and the last koma of a ban in a column, between the genga that stay: those may stand on other koma than
+    /// their frames.
+    pub(super) fn koma_of_ban(&self, column: &Column<'_>, ban: Forbidden) -> [usize; 2] {
+        let [from, to] = self.ends(ban).map(|frame| column.clock.koma_from_frame(frame));
+        let keyed = || column.cells.iter().filter_map(|cell| Some((cell.key?.frame, cell.koma)));
+        let before = keyed().filter(|(frame, _)| *frame < ban.from).last();
+        let after = keyed().find(|(frame, _)| *frame >= ban.past);
+        let from = before.map_or(from, |(_, koma)| from.max(koma + 1));
+        let to = after.map_or(to, |(_, koma)| to.min(koma.saturating_sub(1)));
+        [from, to.max(from)]
+    }
+
     /// Names the koma on which a source frame is shown, or the frame if frames are counted.
     pub(super) fn named(&self, frame: Frame) -> String {
-        let number = self.number_of(frame);
+        let koma = || self.column().koma_of(frame) + 1;
+        let number = if self.counts_frames { frame.0 } else { koma() };
+        self.counted(&number.to_string())
+    }
+
+    /// Names the koma of a ban in the selected column, or its frames if frames are counted.
+    pub(super) fn named_ban(&self, ban: Forbidden) -> String {
+        let [from, to] = match self.counts_frames {
+            true => self.ends(ban).map(|frame| frame.0),
+            false => self.koma_of_ban(self.column(), ban).map(|koma| koma + 1),
+        };
+        if from == to {
+            self.counted(&from.to_string())
+        } else {
+            self.counted(&format!("{from}–{to}"))
+        }
+    }
+
+    /// Says what a number counts.
+    fn counted(&self, number: &str) -> String {
         match (self.counts_frames, self.words.is_japanese()) {
             (false, false) => format!("koma {number}"),
             (false, true) => format!("コマ{number}"),
             (true, false) => format!("frame {number}"),
             (true, true) => format!("フレーム{number}"),
         }
-    }
-
-    /// The number of that koma or frame.
-    pub(super) fn number_of(&self, frame: Frame) -> usize {
-        if self.counts_frames { frame.0 } else { self.column().koma_of(frame) + 1 }
     }
 
     /// The source frame nearest to a koma, within the clip.

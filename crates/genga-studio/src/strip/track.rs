@@ -128,7 +128,7 @@ fn forbidden(painter: &Painter, layout: &Layout, shown: &Shown<'_>) {
     let own = edits.layers.get(column.name).map(|own| &own.forbidden);
     let mut room = Room::default();
     for range in edits.forbidden.iter().chain(own.into_iter().flatten()) {
-        let [from, to] = shown.ends(*range).map(|frame| column.clock.koma_from_frame(frame));
+        let [from, to] = shown.koma_of_ban(column, *range);
         let [left, right] = [from, to.min(column.length.saturating_sub(1))]
             .map(|koma| layout.x(koma) + 0.5 * layout.koma());
         // Above the figures, where no number covers it.

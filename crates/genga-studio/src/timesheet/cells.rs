@@ -170,8 +170,7 @@ impl Strip<'_> {
 
     /// Draws a cross where no key may stand, and a line as long as the range.
     fn forbidden(&self, range: Forbidden, rows: &Range<usize>) {
-        let clock = &self.column.clock;
-        let [from, to] = self.shown.ends(range).map(|frame| clock.koma_from_frame(frame));
+        let [from, to] = self.shown.koma_of_ban(self.column, range);
         if to < rows.start || from >= rows.end {
             return;
         }
