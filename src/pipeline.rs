@@ -21,11 +21,11 @@ use crate::error::Error;
 use crate::keys::{ActionFinder, Actions, BodyTurns, LayerJoints, Layers, Reconstruction};
 use crate::motion::{Clip, Filmed, Screen};
 use crate::recipe::Recipe;
-use crate::sheet::{CameraWork, Feet, RootMotion, Sheet, SpokenLine};
+use crate::sheet::{CameraWork, Feet, Layer, RootMotion, Sheet, SpokenLine};
 use crate::signal::{Spectrum, Speed, Turn};
 use crate::slate::Slate;
 use crate::time::{Clock, Frame};
-use crate::timing::{Omitted, Spaced, with_holds};
+use crate::timing::{Omitted, Spaced, owed_at_end, with_holds};
 
 use breakdown::Shown;
 pub use breakdown::{Breakdown, FoundKeys};
@@ -475,7 +475,9 @@ impl Engine {
                 let spaced = &spaced.value().layer;
                 (spaced.clone(), with_holds(&omitted.layer, spaced, holds, *clock))
             };
-            let (spaced, layers) = layers.into_iter().map(held).unzip();
+            let (spaced, layers): (Vec<Layer>, Vec<Layer>) = layers.into_iter().map(held).unzip();
+            let owed = |layer: &Layer| owed_at_end(layer, holds, *clock);
+            let owed = layers.iter().map(owed).max().unwrap_or(0);
             let filmed = Filmed::new(&laid.value().clip);
             let sheet = |layers| {
                 let sheet = Sheet { root: *root, feet: *feet, ..Sheet::new(*clock, layers) };
@@ -488,7 +490,8 @@ impl Engine {
                 camera.sort_by_key(|work| work.begin);
                 let guesses = filmed.map_or_else(Vec::new, |filmed| filmed.work(&sheet));
                 let camera = CameraWork::with_guesses(camera, guesses);
-                Sheet { lines, camera, slate: slate.clone(), ..sheet }.placed(*at, *end)
+                let sheet = Sheet { lines, camera, slate: slate.clone(), ..sheet };
+                Ok(sheet.placed(*at, *end)?.with_end_held(owed))
             };
             Ok([sheet(spaced)?, sheet(layers)?])
         })

@@ -106,6 +106,21 @@ impl Sheet {
         }
         Ok(self.with_blank(Blank { before, after }))
     }
+
+    /// Returns the sheet with its last drawings held `koma` koma longer, as far as there are blank koma behind them (止メ).
+    /// Those of all layers that last to the end of the drawings stay, so that no part of a body vanishes. The cut stays as
+    /// long as it is.
+    #[must_use]
+    pub fn with_end_held(mut self, koma: usize) -> Self {
+        let (end, more) = (self.length(), koma.min(self.blank.after));
+        for layer in self.layers.iter_mut().filter(|layer| layer.length() == end) {
+            if let Some(last) = layer.exposures.last_mut() {
+                last.koma += more;
+            }
+        }
+        self.blank.after -= more;
+        self
+    }
 }
 
 #[cfg(test)]
@@ -133,6 +148,18 @@ mod tests {
         assert!(late.check().is_ok());
         assert_eq!(late.clone().placed(None, None).unwrap(), late);
         assert_eq!(late.placed(Some(1), Some(36)).unwrap(), sheet());
+    }
+
+    #[test]
+    fn the_last_drawing_is_held_over_blank_koma_and_no_further() {
+        let late = sheet().placed(Some(25), Some(72)).unwrap();
+        for (more, held) in [(0, 0), (5, 5), (12, 12), (99, 12)] {
+            let longer = late.clone().with_end_held(more);
+            assert_eq!(longer.layers[0].exposures.last().unwrap().koma, 1 + held);
+            assert_eq!(longer.blank, Blank { before: 24, after: 12 - held });
+            assert_eq!((longer.length(), longer.cut_length()), (36 + held, 72));
+            assert_eq!(lines(&longer), lines(&late));
+        }
     }
 
     #[test]

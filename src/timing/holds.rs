@@ -51,6 +51,14 @@ pub fn held_drawing(layer: &Layer, hold: Hold, clock: Clock) -> Option<&Exposure
     (away(nearest) < NEAR * clock.frames_in_koma()).then_some(nearest)
 }
 
+/// Number of koma by which a layer's last drawing stays shorter than a person asked, since the layer ends there.
+pub fn owed_at_end(layer: &Layer, holds: &[Hold], clock: Clock) -> usize {
+    let Some(last) = layer.exposures.last() else { return 0 };
+    let is_of_last = |hold: &&Hold| held_drawing(layer, **hold, clock) == Some(last);
+    let owed = holds.iter().filter(is_of_last).map(|hold| hold.koma.saturating_sub(last.koma));
+    owed.max().unwrap_or(0)
+}
+
 /// A drawing with its exposure.
 struct OnScreen {
     drawing: Drawing,

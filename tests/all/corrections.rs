@@ -55,11 +55,37 @@ fn a_pin_names_only_genga_that_stood_on_the_sheet() {
 }
 
 #[test]
+fn the_last_drawing_is_held_to_the_end_of_the_cut() {
+    let place = Place::new();
+    let said = place.said("run data/kick.bvh --length 100 --hold 91:17 --deliver xdts,bvh --out a");
+    assert!(!said.contains("was to stay") && !said.contains("カラ"), "{said}");
+    let sheet = fs::read_to_string(place.path("a/sheet.csv")).unwrap();
+    let koma = column(&sheet, "drawing");
+    assert_eq!(koma.len(), 100);
+    assert!(koma[83..].iter().all(|drawing| *drawing == koma[99]) && koma[82] != koma[99]);
+    // Of several layers none ends before the others.
+    place.done("run data/kick.bvh --layers limbs --length 120 --hold 91:17 --out d");
+    let sheet = fs::read_to_string(place.path("d/sheet.csv")).unwrap();
+    let layers = column(&sheet, "layer");
+    let koma =
+        ["A", "B", "C", "D", "E"].map(|own| layers.iter().filter(|name| *name == own).count());
+    assert!(koma.iter().all(|other| *other == koma[0]) && koma[0] > 92, "{koma:?}");
+    // What was written comes back as it is.
+    place.done("deliver a/sheet.json data/kick.bvh --to csv,bvh --out b");
+    place.done("deliver a/kick_douga_ts.xdts data/kick.bvh --to csv,bvh --out c");
+    for file in ["sheet.csv", "limited.bvh"] {
+        let written = fs::read(place.path(&format!("a/{file}"))).unwrap();
+        assert!(fs::read(place.path(&format!("b/{file}"))).unwrap() == written, "{file}");
+        assert!(fs::read(place.path(&format!("c/{file}"))).unwrap() == written, "{file}");
+    }
+}
+
+#[test]
 fn a_hold_that_is_not_kept_says_why() {
     let place = Place::new();
-    let said = place.said("run data/kick.bvh --length 100 --hold 91:17 --out a");
+    let said = place.said("run data/kick.bvh --length 95 --hold 91:17 --out a");
     assert!(
-        said.contains("stays for 9: it is the last drawing, and the motion ends there"),
+        said.contains("stays for 12: it is the last drawing, and the cut ends there"),
         "{said}"
     );
     let said = place.said("run data/tennis.bvh --hold 87:12 --out b");

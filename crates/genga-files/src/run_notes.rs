@@ -72,7 +72,8 @@ fn unheld(edits: &Edits, breakdown: &Breakdown<'_>) -> Vec<String> {
         }
         for (layer, koma) in found.into_iter().filter(|(_, koma)| *koma != asked) {
             let of = if layers.len() > 1 { format!("{}/", layer.name) } else { String::new() };
-            let why = why_not(layer, *hold, koma, breakdown.clock);
+            let ends = breakdown.sheet.repeat.is_none() && is_last(layer, *hold, breakdown.clock);
+            let why = why_not(koma > asked, ends);
             said.push(format!(
                 "the drawing of frame {of}{frame} was to stay for {asked} koma and stays for {koma}: {why}"
             ));
@@ -82,12 +83,11 @@ fn unheld(edits: &Edits, breakdown: &Breakdown<'_>) -> Vec<String> {
 }
 
 /// Says why a held drawing stays longer or shorter than asked, and what to do.
-fn why_not(layer: &Layer, hold: Hold, koma: usize, clock: Clock) -> &'static str {
-    if koma > hold.koma {
+fn why_not(is_longer: bool, ends: bool) -> &'static str {
+    if is_longer {
         "none is left to follow it, or one would be on screen too briefly; pin what should follow it sooner"
-    } else if is_last(layer, hold, clock) {
-        "it is the last drawing, and the motion ends there; to hold longer, raise its koma in sheet.json and give that \
-         to genga deliver"
+    } else if ends {
+        "it is the last drawing, and the cut ends there; --length makes the cut longer"
     } else {
         "the next genga stands there, or none would stay for one koma; move or forbid that genga to hold longer"
     }

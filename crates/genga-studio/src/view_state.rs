@@ -127,7 +127,7 @@ impl<'a> Shown<'a> {
     pub(super) fn koma_of_ban(&self, column: &Column<'_>, ban: Forbidden) -> [usize; 2] {
         let [from, to] = self.ends(ban).map(|frame| column.clock.koma_from_frame(frame));
         let keyed = || column.cells.iter().filter_map(|cell| Some((cell.key?.frame, cell.koma)));
-        let before = keyed().filter(|(frame, _)| *frame < ban.from).last();
+        let before = keyed().rfind(|(frame, _)| *frame < ban.from);
         let after = keyed().find(|(frame, _)| *frame >= ban.past);
         let from = before.map_or(from, |(_, koma)| from.max(koma + 1));
         let to = after.map_or(to, |(_, koma)| to.min(koma.saturating_sub(1)));
