@@ -51,9 +51,9 @@ impl<T: Send + 'static> Task<T> {
 /// Seconds until the next look.
 pub(super) const LOOK_AGAIN: f32 = if cfg!(target_family = "wasm") { 0.0 } else { 0.05 };
 
-/// Time of a frame after which nothing more begins that can wait for the next one. A browser takes tens of milliseconds to
-/// show a frame where the processor draws, so that short work does not take a frame each.
-pub(super) const BUDGET: Duration = Duration::from_millis(40);
+/// Time of a frame after which nothing more begins that can wait for the next one. Where the processor draws, a browser
+/// takes about as long to show a frame, so that short work does not take a frame each.
+pub(super) const BUDGET: Duration = Duration::from_millis(80);
 
 /// Work on its own thread.
 #[cfg(not(target_family = "wasm"))]
