@@ -21,7 +21,7 @@ mod tests;
 pub use amount::Amount;
 pub use by_passage::ByPassage;
 pub use gauge::{Gauge, Packing, fraction};
-pub use holds::{held_drawing, held_for, owed_at_end, with_holds};
+pub use holds::{held_for, is_of_last, owed_at_end, with_holds};
 pub use koma_per_drawing::{On, Pace};
 pub use omission::{Course, Omission, Omitted, Order};
 pub use report::{Gone, OmissionReport, Shortfall, StageReport};

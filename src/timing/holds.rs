@@ -41,8 +41,14 @@ pub fn held_for(layer: &Layer, hold: Hold, clock: Clock) -> Option<usize> {
     held_drawing(layer, hold, clock).map(|shown| shown.koma)
 }
 
+/// Whether a hold is of a layer's last drawing.
+pub fn is_of_last(layer: &Layer, hold: Hold, clock: Clock) -> bool {
+    let held = held_drawing(layer, hold, clock);
+    held.is_some() && held == layer.exposures.last()
+}
+
 /// Returns where the drawing of a hold stands, as [`held_for`] finds it.
-pub fn held_drawing(layer: &Layer, hold: Hold, clock: Clock) -> Option<&Exposure> {
+fn held_drawing(layer: &Layer, hold: Hold, clock: Clock) -> Option<&Exposure> {
     let frame = hold.frame.0 as f64;
     let away = |shown: &Exposure| (layer.drawings[shown.drawing].source.place() - frame).abs();
     let is_set = |shown: &&Exposure| layer.drawings[shown.drawing].why.hold_set;
@@ -54,9 +60,8 @@ pub fn held_drawing(layer: &Layer, hold: Hold, clock: Clock) -> Option<&Exposure
 /// Number of koma by which a layer's last drawing stays shorter than a person asked, since the layer ends there.
 pub fn owed_at_end(layer: &Layer, holds: &[Hold], clock: Clock) -> usize {
     let Some(last) = layer.exposures.last() else { return 0 };
-    let is_of_last = |hold: &&Hold| held_drawing(layer, **hold, clock) == Some(last);
-    let owed = holds.iter().filter(is_of_last).map(|hold| hold.koma.saturating_sub(last.koma));
-    owed.max().unwrap_or(0)
+    let of_last = holds.iter().filter(|hold| is_of_last(layer, **hold, clock));
+    of_last.map(|hold| hold.koma.saturating_sub(last.koma)).max().unwrap_or(0)
 }
 
 /// A drawing with its exposure.

@@ -33,6 +33,13 @@ impl Table {
         strip.accesskit_node().value().unwrap()
     }
 
+    /// Room of the button of a name that is on the strip.
+    fn button_on_strip(&self, name: &str) -> Option<Rect> {
+        let strip = self.strip();
+        let mut buttons = self.harness.query_all_by_label(name).map(|node| node.rect());
+        buttons.find(|rect| strip.intersects(*rect))
+    }
+
     fn click_at(&mut self, at: Pos2, button: PointerButton) {
         self.harness.hover_at(at);
         self.harness.run();
@@ -97,9 +104,7 @@ fn a_figure_is_pinned_forbidden_and_let_go_where_it_stands() {
     let press = |table: &mut Table, name: &str| {
         table.harness.hover_at(at);
         table.harness.run_steps(2);
-        let strip = table.strip();
-        let buttons = table.harness.query_all_by_label(name);
-        let button = buttons.map(|node| node.rect()).find(|rect| strip.intersects(*rect));
+        let button = table.button_on_strip(name);
         let middle = button.unwrap_or_else(|| panic!("{name} is not on the figure")).center();
         table.click_at(middle, PointerButton::Primary);
     };
@@ -122,18 +127,14 @@ fn a_double_click_takes_one_genga_away() {
     for koma in &genga[1..genga.len() - 1] {
         table.harness.hover_at(table.on_strip(koma - 1, 0.5));
         table.harness.run_steps(2);
-        let strip = table.strip();
-        let cross = |table: &Table| {
-            let mut buttons = table.harness.query_all_by_label("Forbid").map(|node| node.rect());
-            buttons.find(|rect| strip.intersects(*rect))
-        };
-        let Some(button) = cross(&table) else { continue };
+        let Some(button) = table.button_on_strip("Forbid") else { continue };
         table.click_at(button.center(), PointerButton::Primary);
         table.click_at(button.center(), PointerButton::Primary);
         assert_eq!(table.edits().forbidden.len(), 1, "koma {koma}");
         table.harness.hover_at(button.center() + vec2(0.0, 1.0));
         table.harness.run_steps(2);
-        under += usize::from(cross(&table).is_some_and(|other| other.contains(button.center())));
+        let other = table.button_on_strip("Forbid");
+        under += usize::from(other.is_some_and(|other| other.contains(button.center())));
         table.tap(Modifiers::COMMAND, Key::Z);
         assert!(table.edits().is_empty());
     }
@@ -150,9 +151,7 @@ fn a_genga_without_room_for_its_figure_has_its_buttons_all_the_same() {
         let circle = pos2(table.on_strip(koma - 1, 0.0).x, table.strip().max.y - CIRCLE);
         table.harness.hover_at(circle);
         table.harness.run_steps(2);
-        let strip = table.strip();
-        let mut buttons = table.harness.query_all_by_label("Pin").map(|node| node.rect());
-        assert!(buttons.any(|rect| strip.intersects(rect)), "koma {koma}");
+        assert!(table.button_on_strip("Pin").is_some(), "koma {koma}");
     }
 }
 

@@ -38,9 +38,14 @@ pub(super) fn file_of(path: &Path) -> Result<PathBuf, Failure> {
 }
 
 /// Says that the sheet.json of a folder has another timing than a sheet that is delivered into it, and so has what the
-/// run wrote there.
-pub(super) fn of_another_timing(folder: &Path, sheet: &Sheet) -> Option<String> {
-    let own = sheet_json::read(&files::read(&folder.join(SHEET)).ok()?).ok()?.sheet;
+/// run wrote there. `from` is the file of that sheet.
+pub(super) fn of_another_timing(folder: &Path, from: &Path, sheet: &Sheet) -> Option<String> {
+    let own = folder.join(SHEET);
+    // A sheet has its own timing.
+    if paths::is_same(from, &own) {
+        return None;
+    }
+    let own = sheet_json::read(&files::read(&own).ok()?).ok()?.sheet;
     let timing = |sheet: &Sheet| -> Vec<Vec<_>> { sheet.layers.iter().map(shown).collect() };
     (timing(&own) != timing(sheet)).then(|| {
         "what the run wrote here keeps the timing of its sheet.json; --out DIR gives this timing a folder of its own"

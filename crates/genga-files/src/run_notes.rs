@@ -5,8 +5,7 @@ use genga::keys::{Cycle, Key, Origin};
 use genga::motion::Clip;
 use genga::pipeline::{Breakdown, LayerBreakdown};
 use genga::sheet::{Drawing, Layer};
-use genga::time::Clock;
-use genga::timing::{held_drawing, held_for};
+use genga::timing::{held_for, is_of_last};
 
 /// Says that a clip can be repeated, or that the seam of a loop shows.
 pub fn of_cycle(clip: &Clip, is_loop: bool) -> Option<String> {
@@ -72,7 +71,8 @@ fn unheld(edits: &Edits, breakdown: &Breakdown<'_>) -> Vec<String> {
         }
         for (layer, koma) in found.into_iter().filter(|(_, koma)| *koma != asked) {
             let of = if layers.len() > 1 { format!("{}/", layer.name) } else { String::new() };
-            let ends = breakdown.sheet.repeat.is_none() && is_last(layer, *hold, breakdown.clock);
+            let ends =
+                breakdown.sheet.repeat.is_none() && is_of_last(layer, *hold, breakdown.clock);
             let why = why_not(koma > asked, ends);
             said.push(format!(
                 "the drawing of frame {of}{frame} was to stay for {asked} koma and stays for {koma}: {why}"
@@ -91,12 +91,6 @@ fn why_not(is_longer: bool, ends: bool) -> &'static str {
     } else {
         "the next genga stands there, or none would stay for one koma; move or forbid that genga to hold longer"
     }
-}
-
-/// Whether a hold is of a layer's last drawing.
-fn is_last(layer: &Layer, hold: Hold, clock: Clock) -> bool {
-    let held = held_drawing(layer, hold, clock);
-    held.is_some() && held == layer.exposures.last()
 }
 
 /// Builds the note for a hold without a drawing near its frame; it names the one that is on screen there.

@@ -113,7 +113,7 @@ pub(super) fn run(args: &DeliverArgs, words: &Words) -> Result<(), Failure> {
     let notes = filled.iter().flat_map(|filled| &filled.notes);
     notes.for_each(|note| words.say(format_args!("into        追記       {note}")));
     left.notes().iter().for_each(|note| words.say(note));
-    if let Some(note) = sheets::of_another_timing(folder, &file.sheet) {
+    if let Some(note) = sheets::of_another_timing(folder, sheet, &file.sheet) {
         words.say(format_args!("note        {note}"));
     }
     words.say(format_args!("files       {}: {}", folder.display(), written.files.join(" ")));
