@@ -275,7 +275,7 @@ fn the_work_goes_on_while_results_are_written() {
     table.harness.key_press_modifiers(Modifiers::COMMAND, Key::E);
     table.harness.step();
     table.harness.step();
-    table.harness.key_press(Key::Enter);
+    table.harness.get_by_label("Write the files").click();
     table.harness.step();
     table.harness.step();
     let name = "exporting to";

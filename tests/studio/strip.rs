@@ -33,11 +33,14 @@ impl Table {
         strip.accesskit_node().value().unwrap()
     }
 
-    /// Room of the button of a name that is on the strip.
+    /// Room of the button on the strip whose name begins so.
     fn button_on_strip(&self, name: &str) -> Option<Rect> {
         let strip = self.strip();
-        let mut buttons = self.harness.query_all_by_label(name).map(|node| node.rect());
-        buttons.find(|rect| strip.intersects(*rect))
+        let begins = |label: Option<String>| label.is_some_and(|label| label.starts_with(name));
+        let mut buttons = self.harness.query_all_by_label_contains(name);
+        let button = buttons
+            .find(|node| begins(node.accesskit_node().label()) && strip.intersects(node.rect()));
+        button.map(|node| node.rect())
     }
 
     fn click_at(&mut self, at: Pos2, button: PointerButton) {
@@ -133,12 +136,65 @@ fn a_double_click_takes_one_genga_away() {
         assert_eq!(table.edits().forbidden.len(), 1, "koma {koma}");
         table.harness.hover_at(button.center() + vec2(0.0, 1.0));
         table.harness.run_steps(2);
-        let other = table.button_on_strip("Forbid");
-        under += usize::from(other.is_some_and(|other| other.contains(button.center())));
+        let other = ["Forbid", "No genga on"].map(|name| table.button_on_strip(name));
+        let is_under = |other: &Rect| other.contains(button.center());
+        under += usize::from(other.into_iter().flatten().any(|other| is_under(&other)));
         table.tap(Modifiers::COMMAND, Key::Z);
         assert!(table.edits().is_empty());
     }
-    assert!(under > 0, "no genga came under the pointer, so that this shows nothing");
+    assert!(under > 0, "nothing else came under the pointer, so that this shows nothing");
+}
+
+#[test]
+fn a_cross_on_the_strip_says_where_no_genga_may_stand_and_lifts_the_ban() {
+    let mut table = Table::plain_kick();
+    let genga = table.genga();
+    table.second_genga();
+    table.tap(Modifiers::NONE, Key::K);
+    assert_eq!(table.edits().forbidden.len(), 1);
+    let cross = table.button_on_strip("No genga on koma").expect("the ban has a cross");
+    table.click_at(cross.center(), PointerButton::Primary);
+    assert!(table.edits().is_empty());
+    assert_eq!(table.button_on_strip("No genga on koma"), None);
+    assert_eq!(table.genga(), genga, "the genga is back");
+}
+
+#[test]
+fn a_pin_says_which_genga_it_replaces_and_keeps_both() {
+    let mut table = Table::plain_kick();
+    let genga = table.genga();
+    table.second_genga();
+    let (own, pin) = (genga[1], genga[1] + 1);
+    table.tap(Modifiers::NONE, Key::ArrowRight);
+    table.harness.get_by_label(&format!("Pin koma {pin}")).click();
+    table.harness.run();
+    let says = format!("The pin on koma {pin} replaces the genga on koma {own}.");
+    table.harness.get_by_label(&says);
+    table.write_to_look_at("replaced");
+    assert_eq!(table.genga().len(), genga.len());
+    table.harness.get_by_label("Keep both").click();
+    table.harness.run();
+    assert!(table.harness.query_by_label(&says).is_none());
+    assert_eq!(table.edits().pins.len(), 2);
+    assert_eq!(table.genga()[1..3], [own, pin]);
+    for _ in 0..2 {
+        table.tap(Modifiers::COMMAND, Key::Z);
+    }
+    assert!(table.edits().is_empty(), "each was a step");
+    assert_eq!(table.genga(), genga);
+}
+
+#[test]
+fn a_click_at_a_number_of_a_koma_goes_to_that_koma() {
+    let mut table = Table::plain_kick();
+    for koma in [30, 59] {
+        for beside in [-3.0, 3.0] {
+            let number = pos2(table.on_strip(koma, 0.0).x + beside, table.strip().min.y + 5.0);
+            table.click_at(number, PointerButton::Primary);
+            let says = table.strip_says();
+            assert!(says.ends_with(&format!("koma {}", koma + 1)), "{says}");
+        }
+    }
 }
 
 #[test]

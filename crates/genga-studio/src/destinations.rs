@@ -34,10 +34,11 @@ static DESTINATIONS: [Destination; 8] = [
         writes_japanese: "カット袋: タイムシート (XDTS) と番号付きの絵",
         next: "In Clip Studio Paint EX: put the pictures of genga/A into an animation folder A as its cels, genga 9 is \
                A_0009.png. Then File, Import, Timesheet, and choose the _genga_ts.xdts. The folder douga and the \
-               _douga_ts.xdts are the same with the inbetweens, numbered anew.",
+               _douga_ts.xdts are the same with the inbetweens, numbered anew. Each timesheet is there twice, in the \
+               cut and beside its pictures.",
         next_japanese: "CLIP STUDIO PAINT EX でアニメーションフォルダー A を作り、genga/A の絵をセルとして入れる (原画9は \
                         A_0009.png)。次に「ファイル」→「読み込み」→「タイムシート情報」で _genga_ts.xdts を選ぶ。中割りも\
-                        入れるなら、動画の番号の付いた douga/A と _douga_ts.xdts を使う。",
+                        入れるなら、動画の番号の付いた douga/A と _douga_ts.xdts を使う。同じタイムシートがカット袋と絵の隣の2か所にある。",
     },
     Destination {
         english: "OpenToonz",
@@ -135,8 +136,8 @@ pub(super) fn of(order: &Order) -> Option<&'static Destination> {
     fitting().find(|destination| destination.english == order.to).or_else(|| fitting().next())
 }
 
-/// Shows the cards, in as many columns as fit. A click orders what its destination needs.
-pub(super) fn show(ui: &mut Ui, order: &mut Order, words: Words) {
+/// Shows the cards, in as many columns as fit. A click orders what its destination needs. Focuses the first on request.
+pub(super) fn show(ui: &mut Ui, order: &mut Order, wants_focus: bool, words: Words) {
     let columns = ((ui.available_width() + GAP) / (WIDE + GAP)).floor().clamp(1.0, 4.0) as usize;
     Grid::new("destinations").num_columns(columns).spacing([GAP, GAP]).show(ui, |ui| {
         // A build without images cannot write for all of them.
@@ -144,7 +145,11 @@ pub(super) fn show(ui: &mut Ui, order: &mut Order, words: Words) {
         for (at, destination) in all.enumerate() {
             let name = words.say(destination.english, destination.japanese);
             let is_on = of(order) == Some(destination);
-            if card(ui, (name, destination.writes(words)), is_on).clicked() {
+            let card = card(ui, (name, destination.writes(words)), is_on);
+            if wants_focus && at == 0 {
+                card.request_focus();
+            }
+            if card.clicked() {
                 order.formats = destination.ordered();
                 order.to = destination.english.to_owned();
             }

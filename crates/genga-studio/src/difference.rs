@@ -1,8 +1,9 @@
-//! The difference (違い) that the last change made: which genga went and which came, and the counts before it.
+//! The difference (違い) that the last change made: which genga went, came or moved, and the counts before it.
 
-use super::column::Column;
+use super::column::{Column, KeyedCell};
 use super::counts::Counts;
 use genga::pipeline::Breakdown;
+use genga::time::Frame;
 
 /// A drawing on a sheet.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -12,6 +13,8 @@ struct Drawn {
     /// Its place in the source.
     place: f64,
     is_kept: bool,
+    /// Whether a person pinned or moved it.
+    is_set: bool,
 }
 
 /// The sheet before a change, column by column.
@@ -29,12 +32,30 @@ pub(super) struct Gone {
     pub(super) place: f64,
 }
 
+/// A genga that stands on another koma than before.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Shifted {
+    pub(super) from: usize,
+    pub(super) to: usize,
+}
+
+/// A found genga in whose place a new pin stands.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Replaced {
+    pub(super) gone: Gone,
+    /// The koma of the pin.
+    pub(super) by: usize,
+}
+
 /// What changed in a column.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct Changed {
     pub(super) gone: Vec<Gone>,
     /// The koma on which genga begin that were not there, in order.
     pub(super) came: Vec<usize>,
+    /// The genga with another koma, in order.
+    pub(super) shifted: Vec<Shifted>,
+    pub(super) replaced: Vec<Replaced>,
 }
 
 /// What a change made of the sheet.
@@ -44,6 +65,13 @@ pub(super) struct Difference {
     pub(super) columns: Vec<Changed>,
     /// Every koma at which the sheet became another: where genga went or came, else where drawings stay otherwise.
     pub(super) places: Vec<usize>,
+}
+
+impl Gone {
+    /// Its source frame.
+    pub(super) fn frame(&self) -> Frame {
+        Frame(self.place.round().max(0.0) as usize)
+    }
 }
 
 impl Before {
@@ -76,28 +104,71 @@ impl Before {
 
 /// The drawings of a column in order.
 fn drawn(column: &Column<'_>) -> Vec<Drawn> {
-    let drawing = |cell: &super::column::KeyedCell<'_>| Drawn {
+    let drawing = |cell: &KeyedCell<'_>| Drawn {
         koma: cell.koma,
         held: cell.held,
         place: cell.drawing.source.place(),
         is_kept: cell.genga.is_some(),
+        is_set: cell.key.is_some_and(|key| key.origin.is_set()),
     };
     column.cells.iter().map(drawing).collect()
 }
 
-/// The genga of which only one of two sheets has the place.
+/// Compares two sheets. A genga is known by its place.
 fn changed(before: &[Drawn], now: &[Drawn]) -> Changed {
-    let only = |one: &[Drawn], other: &[Drawn]| -> Vec<Drawn> {
-        let mut places: Vec<f64> =
-            other.iter().filter(|own| own.is_kept).map(|own| own.place).collect();
-        places.sort_unstable_by(f64::total_cmp);
-        let is_new = |own: &&Drawn| {
-            own.is_kept && places.binary_search_by(|place| place.total_cmp(&own.place)).is_err()
-        };
-        one.iter().filter(is_new).copied().collect()
+    let (old, new) = (ByPlace::new(before), ByPlace::new(now));
+    let only = |one: &[Drawn], other: &ByPlace<'_>| -> Vec<Drawn> {
+        let own = one.iter().filter(|own| own.is_kept && other.at(own.place).is_empty());
+        own.copied().collect()
     };
-    let gone = only(before, now).into_iter().map(|own| Gone { koma: own.koma, place: own.place });
-    Changed { gone: gone.collect(), came: only(now, before).iter().map(|own| own.koma).collect() }
+    let (gone, came) = (only(before, &new), only(now, &old));
+    let told = |own: &Drawn| Gone { koma: own.koma, place: own.place };
+    let replaced = gone.iter().filter(|own| !own.is_set).filter_map(|own| {
+        let takes_its_place = |pin: &&Drawn| pin.is_set && new.are_neighbours(own, pin);
+        let by = came.iter().find(takes_its_place)?;
+        Some(Replaced { gone: told(own), by: by.koma })
+    });
+    Changed {
+        replaced: replaced.collect(),
+        shifted: old.shifted(&new),
+        gone: gone.iter().map(told).collect(),
+        came: came.iter().map(|own| own.koma).collect(),
+    }
+}
+
+/// The genga of a sheet, ordered by their places and then by their koma.
+struct ByPlace<'a>(Vec<&'a Drawn>);
+
+impl<'a> ByPlace<'a> {
+    fn new(sheet: &'a [Drawn]) -> Self {
+        let mut genga: Vec<&Drawn> = sheet.iter().filter(|own| own.is_kept).collect();
+        genga.sort_by(|a, b| a.place.total_cmp(&b.place));
+        Self(genga)
+    }
+
+    /// The genga that show a place. In a loop every round has one.
+    fn at(&self, place: f64) -> &[&'a Drawn] {
+        let from = self.0.partition_point(|own| own.place < place);
+        let past = self.0.partition_point(|own| own.place <= place);
+        &self.0[from..past]
+    }
+
+    /// The genga that stand on another koma on a later sheet, in order.
+    fn shifted(&self, later: &Self) -> Vec<Shifted> {
+        let rounds = later.0.chunk_by(|a, b| a.place == b.place);
+        let pairs = rounds.flat_map(|now| self.at(now[0].place).iter().zip(now));
+        let shifted = pairs.map(|(own, now)| Shifted { from: own.koma, to: now.koma });
+        let mut shifted: Vec<Shifted> = shifted.filter(|own| own.from != own.to).collect();
+        shifted.sort_by_key(|own| own.to);
+        shifted
+    }
+
+    /// Whether two drawings could both be seen and have no genga between them.
+    fn are_neighbours(&self, a: &Drawn, b: &Drawn) -> bool {
+        let (from, to) = (a.place.min(b.place), a.place.max(b.place));
+        let after = self.0.partition_point(|own| own.place <= from);
+        a.koma != b.koma && self.0.get(after).is_none_or(|next| next.place >= to)
+    }
 }
 
 #[cfg(test)]
@@ -110,6 +181,7 @@ mod tests {
             held: 2,
             place: *place,
             is_kept: true,
+            is_set: false,
         };
         genga.iter().map(drawn).collect()
     }
@@ -121,6 +193,8 @@ mod tests {
         let changed = changed(&before, &now);
         assert_eq!(changed.gone, [Gone { koma: 8, place: 9.0 }]);
         assert_eq!(changed.came, [9]);
+        assert_eq!(changed.shifted, [Shifted { from: 4, to: 5 }]);
+        assert_eq!(changed.replaced, [], "nobody pinned anything");
         assert_eq!(super::changed(&before, &before), Changed::default());
     }
 
@@ -129,6 +203,31 @@ mod tests {
         let mut before = sheet(&[(0, 0.0), (4, 4.0)]);
         let now = sheet(&[(0, 0.0), (4, 4.0)]);
         before[1].is_kept = false;
-        assert_eq!(changed(&before, &now), Changed { gone: vec![], came: vec![4] });
+        assert_eq!(changed(&before, &now), Changed { came: vec![4], ..Changed::default() });
+    }
+
+    #[test]
+    fn every_round_of_a_loop_is_compared_with_itself() {
+        let before = sheet(&[(0, 0.0), (4, 4.0), (8, 0.0), (12, 4.0)]);
+        assert_eq!(changed(&before, &before), Changed::default());
+        let now = sheet(&[(0, 0.0), (5, 4.0), (8, 0.0), (13, 4.0)]);
+        let shifted = [Shifted { from: 4, to: 5 }, Shifted { from: 12, to: 13 }];
+        assert_eq!(changed(&before, &now).shifted, shifted);
+    }
+
+    #[test]
+    fn a_pin_replaces_the_found_genga_beside_it_and_no_other() {
+        let before = sheet(&[(0, 0.0), (4, 4.0), (9, 9.0), (20, 20.0)]);
+        let mut now = sheet(&[(0, 0.0), (4, 4.0), (11, 11.0), (18, 18.0)]);
+        assert_eq!(changed(&before, &now).replaced, [], "they were found");
+        now[2].is_set = true;
+        let replaced = |before: &[Drawn], now: &[Drawn]| changed(before, now).replaced;
+        let gone = Gone { koma: 9, place: 9.0 };
+        assert_eq!(replaced(&before, &now), [Replaced { gone, by: 11 }], "20 went for 18");
+        let mut moved = before.clone();
+        moved[2].is_set = true;
+        assert_eq!(replaced(&moved, &now), [], "a pin that a person moved replaces none");
+        now[2].koma = 9;
+        assert_eq!(replaced(&before, &now), [], "one of two on a koma cannot be seen");
     }
 }

@@ -40,7 +40,7 @@ pub(super) struct OrderPanel {
     pub(super) has_folders: bool,
     /// The folder being typed.
     pub(super) folder: String,
-    /// Whether the button that writes the files is to be focused.
+    /// Whether the button that writes the files, or before the first order a card, is to be focused.
     wants_focus: bool,
 }
 
@@ -66,7 +66,7 @@ impl OrderPanel {
         commands: &mut Vec<Command>,
     ) {
         let Some(order) = &mut self.order else { return };
-        ui.strong(words.say("Export", "書き出し"));
+        ui.strong(words.say("Export: where does it go?", "書き出し: 届け先を選ぶ"));
         let window = ui.ctx().content_rect().size();
         let room = (window.y - notice::top(window) - ROOM).max(LEAST_ROOM);
         // Reserves the full height. A notice gets the height of its last frame, and would otherwise grow frame by
@@ -74,7 +74,8 @@ impl OrderPanel {
         let scroll =
             ScrollArea::vertical().id_salt("order").max_height(room).min_scrolled_height(room);
         scroll.show(ui, |ui| {
-            destinations::show(ui, order, words);
+            let is_asked = order.formats.is_empty() && std::mem::take(&mut self.wants_focus);
+            destinations::show(ui, order, is_asked, words);
             if let Some(destination) = destinations::of(order) {
                 let (next, japanese) = destination.next();
                 ui.label(RichText::new(words.say(next, japanese)).size(12.0).weak());
@@ -129,11 +130,14 @@ impl OrderPanel {
         }
     }
 
-    /// Shows the buttons that export or cancel. The first is focused, since the last order usually fits again.
+    /// Shows the buttons that export or cancel. The first is focused, since the last order usually fits again. Before
+    /// the first order that is the first card.
     fn decide(&mut self, ui: &mut Ui, words: Words, commands: &mut Vec<Command>) {
         let Some(order) = &self.order else { return };
         let is_named = order.folder != Path::new("");
-        let write = Button::new(words.say("Write the files", "書き出す")).selected(true);
+        // It leads on once it is said where the results go. Without that an export has only what every export has.
+        let write = Button::new(words.say("Write the files", "書き出す"));
+        let write = write.selected(!order.formats.is_empty());
         let write = ui.add_enabled(is_named, write);
         Part::Notices.begins(&write);
         if std::mem::take(&mut self.wants_focus) {

@@ -58,6 +58,7 @@ mod panels;
 mod passages;
 mod player;
 mod playhead_edits;
+mod replaced;
 mod scene;
 mod smoothing_map;
 mod sound_track;

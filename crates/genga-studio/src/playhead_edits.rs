@@ -30,7 +30,7 @@ impl Here<'_> {
                 false => Correction::Forbid(key.clone(), column.place_of(&key)),
                 true => Correction::TakeBack(key),
             },
-            (Command::ToggleKey, _) => {
+            (Command::ToggleKey, _) | (Command::Pin, None) => {
                 Correction::Pin(self.frame(column.clock.place_from_koma(self.at)))
             }
             (Command::Pin, Some(key)) => match self.is_set(&key) {

@@ -5,9 +5,10 @@ use glam::DVec3;
 
 use genga::motion::{Clip, JointId, Skeleton, Stature};
 use genga::sheet::Source;
-use genga::time::KOMA_RATE;
+use genga::signal::{Contact, ContactFinder, Limb};
+use genga::time::{Clock, KOMA_RATE};
 use genga_plot::Camera;
-use genga_plot::parts::{Figure, FigureBody, Posing, View, bones, seen_by};
+use genga_plot::parts::{BodySide, Figure, FigureBody, Posing, View, bones, seen_by};
 
 /// Number of poses sampled to find the space that a motion reaches.
 const LOOKS: usize = 240;
@@ -17,6 +18,17 @@ const CELL: f64 = 0.5;
 
 /// Distance that counts as far, in heights of the body.
 const FAR: f64 = 2.0;
+
+/// A stretch in which a foot stands (接地).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Stand {
+    pub(super) side: BodySide,
+    /// Whether it is the first of the two feet.
+    pub(super) is_first: bool,
+    /// Places of the source at which it begins and has ended.
+    pub(super) from: f64,
+    pub(super) past: f64,
+}
 
 /// Data shared by all views of a clip.
 #[derive(Debug, Clone)]
@@ -29,6 +41,8 @@ pub(super) struct Scene {
     pub(super) cell: f64,
     /// Points that the motion reaches, used to fit it into a view.
     pub(super) reached: Vec<DVec3>,
+    /// The stands of both feet.
+    pub(super) stands: Vec<Stand>,
     /// For each joint, the point below it that travels the longest path.
     ends: Vec<usize>,
     front: View,
@@ -57,6 +71,7 @@ impl Scene {
             up,
             floor,
             cell,
+            stands: stands(clip, clock),
             ends: ends(clip.skeleton(), &poses),
             front: view(Camera::Front),
             side: view(Camera::Side),
@@ -94,6 +109,20 @@ impl Scene {
     pub(super) fn on_floor(&self, point: DVec3) -> DVec3 {
         point - self.up * (point.dot(self.up) - self.floor)
     }
+}
+
+/// The stretches in which each foot of a clip stands.
+fn stands(clip: &Clip, clock: Clock) -> Vec<Stand> {
+    let mut contacts = ContactFinder::default().find(clip, clock);
+    contacts.retain(|contact| contact.limb == Limb::Foot);
+    let first = contacts.first().map(|contact| contact.point);
+    let stand = |contact: &Contact| Stand {
+        side: BodySide::from_name(&clip.skeleton().joints[contact.point.joint.0].name),
+        is_first: Some(contact.point) == first,
+        from: clock.place_from_koma(*contact.koma.start()),
+        past: clock.place_from_koma(contact.koma.end() + 1),
+    };
+    contacts.iter().map(stand).collect()
 }
 
 /// For each joint, the point below it that travels the longest path.

@@ -1,7 +1,9 @@
 //! The strip (ポーズの列): the genga as small figures over time, and below them every drawing for as long as it stays. It is
 //! the main timeline: genga are chosen, dragged, pinned, forbidden and held on the figures themselves.
 
+mod bans;
 mod choice;
+mod feet;
 mod figures;
 mod layout;
 mod pointer;
@@ -9,6 +11,7 @@ mod track;
 
 use egui::{Id, Pos2, Rect, Role, Sense, Stroke, Ui, WidgetInfo};
 
+use self::bans::Ban;
 use self::figures::Passage;
 use self::layout::Layout;
 use self::pointer::Hand;
@@ -96,11 +99,14 @@ impl Strip {
         let layout = Layout::new(rect, self.window.scale(inside));
         let hovered = self.hovered.as_ref().map(Passage::cell);
         let figured = choice::choose(&layout, shown, player.is_playing(), hovered);
-        self.hover(ui, &layout, &figured, response.dragged(), shown);
+        let bans = bans::of(&layout, shown);
+        self.hover(ui, &layout, (&figured, &bans), response.dragged(), shown);
         self.hand.handle(&response, &layout, &figured, shown, commands);
         self.draw(ui, &layout, &figured, (shown, difference), (orbit, player));
-        self.play(ui, &layout, shown, commands);
+        bans::draw(&ui.painter_at(rect), &bans, &shown.look);
+        self.press(ui, &layout, &bans, shown, commands);
         name(&response, shown);
+        let response = feet::explain(response, &layout, shown);
         response.context_menu(|ui| match &self.hand.asked {
             Some(key) => key_menu::show(ui, key, shown, commands),
             None => key_menu::show_none(ui, shown, commands),
@@ -113,7 +119,7 @@ impl Strip {
         &mut self,
         ui: &Ui,
         layout: &Layout,
-        figured: &[usize],
+        (figured, bans): (&[usize], &[Ban]),
         is_dragged: bool,
         shown: &Shown<'_>,
     ) {
@@ -121,26 +127,35 @@ impl Strip {
         let is_over = ui.rect_contains_pointer(layout.rect) && !is_dragged;
         let at = ui.input(|input| input.pointer.hover_pos()).filter(|_| is_over);
         self.clicked = self.clicked.filter(|clicked| Some(*clicked) == at);
-        let cell =
-            at.filter(|_| self.clicked.is_none()).and_then(|at| layout.cell(at, figured, shown));
+        // A cross over a figure is not the figure's.
+        let free = at.filter(|at| !bans.iter().any(|ban| ban.is_at(*at)));
+        let free = free.filter(|_| self.clicked.is_none());
+        let cell = free.and_then(|at| layout.cell(at, figured, shown));
         let now = ui.input(|input| input.time);
         self.hovered = Passage::under(cell, self.hovered.take(), now);
     }
 
-    /// Shows the buttons of the genga under the pointer, and asks for a frame when its passage has another koma.
-    fn play(
+    /// Shows the crosses of bans and the buttons of the genga under the pointer, and asks for a frame when its passage
+    /// has another koma.
+    fn press(
         &mut self,
         ui: &mut Ui,
         layout: &Layout,
+        bans: &[Ban],
         shown: &Shown<'_>,
         commands: &mut Vec<Command>,
     ) {
-        let Some(passage) = &self.hovered else { return };
         let given = commands.len();
-        figures::buttons(ui, passage, layout, shown, commands);
+        if self.clicked.is_none() {
+            bans::handle(ui, bans, shown, commands);
+        }
+        if let Some(passage) = &self.hovered {
+            figures::buttons(ui, passage, layout, shown, commands);
+        }
         if commands.len() > given {
             self.clicked = ui.input(|input| input.pointer.hover_pos());
         }
+        let Some(passage) = &self.hovered else { return };
         let now = ui.input(|input| input.time);
         if let Some(wait) = passage.wait(now, shown) {
             ui.ctx().request_repaint_after_secs(wait);

@@ -13,6 +13,7 @@ use super::notice::{self, Message};
 use super::open_take::Results;
 use super::panels::{self, Side};
 use super::passages;
+use super::replaced;
 use super::strip::{self, Strip};
 use super::theme::Look;
 use super::transport;
@@ -89,6 +90,10 @@ impl Studio {
             }
             if let Some(message) = &self.message {
                 notice::message(ui, message, look, words, commands);
+            }
+            let changed = self.difference.as_ref().and_then(|all| all.columns.get(self.chosen));
+            if let Some(changed) = changed {
+                replaced::show(ui, &changed.replaced, (look, words), commands);
             }
             if let (Some(leaving), Some(take)) = (&self.leaving, &self.take) {
                 leaving::ask(ui, (leaving, &take.name()), look, words, commands);

@@ -33,10 +33,17 @@ const STEPS: [Step; 6] = [
         asks_for: |command| matches!(command, Command::Correct(Correction::Forbid(..))),
     },
     Step {
-        english: "A figure that must stay: point at it, and pin it with the pin over it.",
-        japanese: "残すポーズは、ポインターを置いて上のピンで固定する。",
+        english: "A figure that must stay: point at it, and pin it with the pin over it. Any other koma: click it, and \
+                  press K.",
+        japanese: "残すポーズは、ポインターを置いて上のピンで固定する。ほかのコマは、クリックして K。",
         asks_for: |command| {
-            matches!(command, Command::Pin | Command::Correct(Correction::PinKey(_)))
+            let is_pin =
+                |own: &Correction| matches!(own, Correction::PinKey(_) | Correction::Pin(_));
+            match command {
+                Command::Pin | Command::ToggleKey => true,
+                Command::Correct(correction) => is_pin(correction),
+                _ => false,
+            }
         },
     },
     Step {

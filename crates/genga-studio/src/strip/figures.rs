@@ -1,14 +1,15 @@
 //! Draws the figures of the strip, the ghosts of genga that went, and the passage that plays under the pointer.
 
-use egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Ui, pos2, vec2};
+use egui::{Painter, Pos2, Rect, Stroke, Ui, Vec2, pos2, vec2};
 use glam::DVec3;
 
 use super::layout::Layout;
 use crate::command::Command;
 use crate::corrections::Correction;
-use crate::difference::Changed;
+use crate::difference::{Changed, Shifted};
 use crate::icon::{self, Icon};
 use crate::label_culling::Room;
+use crate::theme::Look;
 use crate::view_state::Shown;
 use crate::viewport::{Inks, Orbit, draw_body};
 use genga::sheet::Source;
@@ -97,8 +98,8 @@ pub(super) fn draw(
         let koma = played.and_then(|(passage, now)| passage.at(now, shown)).unwrap_or(cell.koma);
         let pose = posing.koma(koma);
         draw_body(painter, &place.stage(x, &pose).draw(&pose), Inks::Sides, &shown.look);
-        if changed.is_some_and(|changed| changed.came.binary_search(&cell.koma).is_ok()) {
-            mark(painter, layout.slot(x).left_top() + vec2(8.0, 8.0), "+", shown.look.wall, shown);
+        if let Some(sign) = changed.and_then(|changed| Sign::of(cell.koma, changed)) {
+            sign.draw(painter, layout.slot(x).left_top() + vec2(8.0, 8.0), &shown.look);
         }
     }
 }
@@ -123,15 +124,49 @@ fn ghosts(
         let pose = posing.points(Source::At(gone.place));
         let ink = Inks::One(look.faint.gamma_multiply(0.55), 0.8);
         draw_body(painter, &place.stage(x, &pose).draw(&pose), ink, look);
-        mark(painter, layout.slot(x).right_top() + vec2(-8.0, 8.0), "−", look.faint, shown);
+        Sign::Gone.draw(painter, layout.slot(x).right_top() + vec2(-8.0, 8.0), look);
     }
 }
 
-/// Marks a genga that came or went.
-fn mark(painter: &Painter, middle: Pos2, sign: &str, color: Color32, shown: &Shown<'_>) {
-    painter.circle_filled(middle, 6.5, color);
-    let font = FontId::proportional(12.0);
-    painter.text(middle, Align2::CENTER_CENTER, sign, font, shown.look.paper);
+/// The sign on a figure of what the last change did to it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Sign {
+    Gone,
+    Came,
+    Earlier,
+    Later,
+}
+
+impl Sign {
+    /// The sign of the genga on a koma. `None` if it is as it was.
+    fn of(koma: usize, changed: &Changed) -> Option<Self> {
+        if changed.came.binary_search(&koma).is_ok() {
+            return Some(Self::Came);
+        }
+        let at = changed.shifted.binary_search_by_key(&koma, |own| own.to).ok()?;
+        let Shifted { from, to } = changed.shifted[at];
+        Some(if to > from { Self::Later } else { Self::Earlier })
+    }
+
+    /// Draws it in a disc. It is drawn by lines, so that no font needs it.
+    fn draw(self, painter: &Painter, middle: Pos2, look: &Look) {
+        let color = if self == Self::Came { look.wall } else { look.faint };
+        painter.circle_filled(middle, 6.5, color);
+        let stroke = Stroke::new(1.5, look.paper);
+        let line = |from: Vec2, to: Vec2| {
+            painter.line_segment([middle + from, middle + to], stroke);
+        };
+        line(vec2(-3.5, 0.0), vec2(3.5, 0.0));
+        let tip = match self {
+            Self::Gone => return,
+            Self::Came => return line(vec2(0.0, -3.5), vec2(0.0, 3.5)),
+            Self::Earlier => vec2(-3.5, 0.0),
+            Self::Later => vec2(3.5, 0.0),
+        };
+        for y in [-2.5, 2.5] {
+            line(tip, vec2(0.3 * tip.x, y));
+        }
+    }
 }
 
 /// The stage of one figure after another.

@@ -66,6 +66,15 @@ impl Layout {
         self.time.place(x).round().max(0.0) as usize
     }
 
+    /// The koma meant at a position: the one whose bar is there, else the one whose figure and number are nearest. Those
+    /// stand on the line at which their koma begins.
+    pub(super) fn meant(&self, at: Pos2, length: usize) -> usize {
+        match at.y >= self.track.min {
+            true => self.at(at.x, length),
+            false => self.line(at.x).min(length.saturating_sub(1)),
+        }
+    }
+
     /// The exposures in view, as a range of a column's cells.
     pub(super) fn seen(&self, shown: &Shown<'_>) -> std::ops::Range<usize> {
         let column = shown.column();

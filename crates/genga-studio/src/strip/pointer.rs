@@ -42,7 +42,7 @@ impl Hand {
         if response.secondary_clicked() {
             self.asked = under.and_then(|cell| column.cells[cell].key).cloned();
         }
-        let koma = layout.at(at.x, column.length);
+        let koma = layout.meant(at, column.length);
         if let Some(held) = self.held.as_mut().filter(|_| response.dragged()) {
             let correction = held.carry(koma, layout.line(at.x), shown);
             commands.extend(correction.map(Command::Drag));

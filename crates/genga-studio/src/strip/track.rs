@@ -1,10 +1,10 @@
 //! Draws what stands around the figures: koma numbers and actions above, the numbers of the genga, every drawing for as
-//! long as it stays, the steps of gaits and the forbidden koma below.
+//! long as it stays, the steps of gaits and the standing feet below.
 
 use egui::{Align2, FontId, Painter, Pos2, Rect, Stroke, pos2, vec2};
 
+use super::feet;
 use super::layout::Layout;
-use crate::icon::cross;
 use crate::label_culling::Room;
 use crate::timesheet::badge;
 use crate::view_state::Shown;
@@ -26,8 +26,8 @@ pub(super) fn draw(painter: &Painter, layout: &Layout, figured: &[usize], shown:
     rounds(painter, layout, shown);
     passages(painter, layout, shown);
     gaits(painter, layout, shown);
+    feet::draw(painter, layout, shown);
     drawings(painter, layout, shown);
-    forbidden(painter, layout, shown);
     badges(painter, layout, figured, shown);
     for koma in shown.breakdown.actions.koma(shown.column().clock) {
         let x = layout.x(koma);
@@ -118,25 +118,6 @@ fn drawings(painter: &Painter, layout: &Layout, shown: &Shown<'_>) {
         painter.vline(left + 0.75, top..=layout.track.max, Stroke::new(1.5, color));
         if cell.drawing.why.hold_set {
             painter.rect_stroke(bar, 1.0, Stroke::new(1.5, look.genga), egui::StrokeKind::Inside);
-        }
-    }
-}
-
-/// Draws a cross where no genga may stand, and a line as long as the range.
-fn forbidden(painter: &Painter, layout: &Layout, shown: &Shown<'_>) {
-    let (edits, column) = (&shown.wanted.edits, shown.column());
-    let own = edits.layers.get(column.name).map(|own| &own.forbidden);
-    let mut room = Room::default();
-    for range in edits.forbidden.iter().chain(own.into_iter().flatten()) {
-        let [from, to] = shown.koma_of_ban(column, *range);
-        let [left, right] = [from, to.min(column.length.saturating_sub(1))]
-            .map(|koma| layout.x(koma) + 0.5 * layout.koma());
-        // Above the figures, where no number covers it.
-        let at = pos2(0.5 * (left + right), layout.figures.min.y + 6.0);
-        let ink = shown.look.genga;
-        painter.hline(left..=right, at.y, Stroke::new(1.0, ink.gamma_multiply(0.5)));
-        if layout.rect.contains(at) && room.take(at.x, 8.0) {
-            cross(painter, at, 3.5, Stroke::new(1.8, ink));
         }
     }
 }
