@@ -42,6 +42,7 @@ mod links; // links between the pages of the documentation
 mod loops; // sheets that repeat, and the cycles of a take
 mod lost_limbs; // an arm or a leg that a file will not move is reported on the first line
 mod lying_files; // makes lying files
+mod marked_keys; // files with marked keys that come back, as they were or edited
 mod mutated; // real files with anything changed: no panic, and what is read is written
 mod one_motion; // the same keys in any rig, at any rate, with noise
 mod pages; // everything named on the pages for newcomers exists

@@ -83,7 +83,7 @@ pub(super) struct Corrections {
     /// Pin the keys marked in a table, a sheet or a timesheet.
     ///
     /// The genga of an edited keys.csv, drawings.csv, sheet.csv or sheet.json of this clip, or the numbers on an XDTS
-    /// timesheet (only the circled ones, if there are any).
+    /// timesheet (only the circled ones, if there are any). Those that are genga anyway get no pin.
     #[arg(long, value_name = "FILE", help_heading = CORRECTIONS)]
     pub(super) pin_from: Option<PathBuf>,
     /// Only pinned and moved keys, and the clip's ends.

@@ -7,7 +7,7 @@
 //! batch       many clips at once: the list, the workers, the journal
 //! clip        the motion: which clip, which part of it, and how it is read
 //! corrections the recipe and a person's corrections
-//! pins        keys that are marked in a file
+//! pins        keys that are marked in a file, and which of them are pinned
 //! seen        the camera in which movement is measured
 //! plan        all of these together, and the targets of the sheet
 //! formats     the output formats and their files
@@ -37,6 +37,7 @@ mod freeze_args;
 mod headings;
 mod into_args;
 mod kept;
+mod marked_keys;
 mod numbers;
 mod outcomes;
 mod paths;

@@ -2,12 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
-use super::console::counted;
 use super::corrections::Corrections;
 use super::failure::Failure;
 use super::format_args::Formats;
+use super::marked_keys::MarkedKeys;
 use super::{files, into_args, paths, sheets};
-use genga::edits::{Edits, Pin};
+use genga::edits::Pin;
 use genga::error::Error;
 use genga::motion::Clip;
 use genga::pipeline::Engine;
@@ -18,68 +18,36 @@ use genga_files::sheet_json::SheetFile;
 use genga_files::xdts::{self, Column, Exchange, Mark, Numbered};
 use genga_files::{Cut, Format, pins_from_sheet, pins_from_table, sheet_json};
 
-/// Keys read from a file, with the column they were read from.
-struct Marked {
-    pins: Vec<Pin>,
-    column: String,
-    /// Notes for the user.
-    notes: Vec<String>,
-}
-
-impl Marked {
-    fn new((pins, column): (Vec<Pin>, String)) -> Self {
-        Self { pins, column, notes: vec![] }
-    }
-}
-
-/// Adds the keys marked in the `--pin-from` file to the corrections and returns what it did, in sentences. Pins given
-/// otherwise take precedence: on a koma that already has a pin, the marked key is dropped.
-pub(super) fn marked(
-    args: &Corrections,
-    engine: &mut Engine,
-    recipe: &Recipe,
-    edits: &mut Edits,
-) -> Result<Vec<String>, Failure> {
-    let Some(path) = &args.pin_from else { return Ok(vec![]) };
+/// Reads the keys marked in a file, of a column. `sheet` is that of the run without these keys.
+pub(super) fn read(
+    (path, column): (&Path, Option<&str>),
+    engine: &Engine,
+    sheet: &Sheet,
+) -> Result<MarkedKeys, Failure> {
     let name = paths::named(path);
     let bytes = files::read(path)?;
-    let column = args.pin_column.as_deref();
     let of_file = files::fault_of(path);
-    let marked = match Kind::detect(&name, &bytes) {
-        Kind::Timesheet => of_timesheet(&bytes, &name, column, engine, (recipe, edits))?,
-        Kind::Table => of_table(&bytes, pins_from_table(&bytes, column).map_err(&of_file)?),
+    Ok(match Kind::detect(&name, &bytes) {
+        Kind::Timesheet => of_timesheet(&bytes, &name, column, engine.clip(), sheet)?,
+        Kind::Table => of_table(name, &bytes, pins_from_table(&bytes, column).map_err(&of_file)?),
         Kind::Sheet => {
             let file = sheet_json::read(&bytes).map_err(&of_file)?;
             check_rate(&file, engine, &name)?;
-            Marked::new(pins_from_sheet(&file, column).map_err(&of_file)?)
+            MarkedKeys::of_table(name, pins_from_sheet(&file, column).map_err(&of_file)?)
         }
-    };
-    let count = marked.pins.len();
-    let layer = layer(&marked.column, engine, recipe)?;
-    let pinned = add(marked.pins, layer, engine, recipe, edits);
-    let mut notes = vec![format!(
-        "pinned from {}: {} of column {}",
-        name.display(),
-        counted(pinned, "key"),
-        marked.column
-    )];
-    if pinned < count {
-        let others = counted(count - pinned, "other");
-        notes.push(format!("{others} marked there gave way to pins on the same koma"));
-    }
-    notes.extend(marked.notes);
-    Ok(notes)
+    })
 }
 
 /// Rows of a table of keys that are no keys: its head, and the ends of the clip.
 const HEAD_AND_ENDS: usize = 3;
 
 /// Notes that a table with more than keys gives keys alone.
-fn of_table(bytes: &[u8], keys: (Vec<Pin>, String)) -> Marked {
+fn of_table(path: PathBuf, bytes: &[u8], keys: (Vec<Pin>, String)) -> MarkedKeys {
     let rows = bytes.split(|byte| *byte == b'\n').filter(|row| !row.trim_ascii().is_empty());
     let has_others = rows.count() > keys.0.len() + HEAD_AND_ENDS;
     let note = "from a table only keys are taken, not the timing: genga deliver takes that of a sheet.json";
-    Marked { notes: has_others.then(|| note.to_owned()).into_iter().collect(), ..Marked::new(keys) }
+    let notes = has_others.then(|| note.to_owned()).into_iter().collect();
+    MarkedKeys::of_table(path, keys).with_notes(notes)
 }
 
 /// Returns the layer that a column's keys belong to: the layer of that name if there are several layers, else all.
@@ -91,30 +59,6 @@ pub(super) fn layer<'a>(
     let parts = recipe.layers.split(engine.clip())?;
     let is_one = parts.len() > 1 && parts.iter().any(|part| part.name == column);
     Ok(is_one.then_some(column))
-}
-
-/// Adds pins to a layer, or to all layers, on koma without a pin. Returns the number added.
-fn add(
-    pins: Vec<Pin>,
-    layer: Option<&str>,
-    engine: &Engine,
-    recipe: &Recipe,
-    edits: &mut Edits,
-) -> usize {
-    let clock = engine.clip().clock(recipe.rate);
-    let koma = |frame: Frame| clock.koma_from_frame(frame);
-    let mut added = 0;
-    for pin in pins {
-        let own = koma(pin.frame);
-        let there = layer.map_or_else(|| edits.clone(), |name| edits.of_layer(name));
-        let moved = there.moves.iter().map(|moved| moved.to);
-        let mut taken = there.pins.iter().map(|pin| pin.frame).chain(moved);
-        if !taken.any(|frame| koma(frame) == own) {
-            edits.pins_of(layer).push(pin);
-            added += 1;
-        }
-    }
-    added
 }
 
 /// Refuses to overwrite the marked file, which holds a person's work.
@@ -185,28 +129,22 @@ pub(super) fn check_rate(
 }
 
 /// Reads the keys of a timesheet as the frames that are shown on those koma: by the sheet that lies beside it, else by
-/// the sheet that this run would make without them.
+/// the sheet that this run makes without them.
 fn of_timesheet(
     bytes: &[u8],
     name: &Path,
     column: Option<&str>,
-    engine: &mut Engine,
-    (recipe, edits): (&Recipe, &Edits),
-) -> Result<Marked, Failure> {
+    clip: &Clip,
+    sheet: &Sheet,
+) -> Result<MarkedKeys, Failure> {
     let file = xdts::read(bytes).map_err(files::fault_of(name))?;
     let column = sheet_column(&file, column, name)?;
     let numbered = numbered(name);
     if xdts::marked_keys(column, numbered).is_empty() {
         return Err(nothing_marked(name, column, numbered));
     }
-    let frames = (engine.clip().first(), engine.clip().last());
-    let beside = sheet_beside(name, engine.clip(), file.length);
-    // Computes the sheet without `only_pins`: the marked keys may be the only ones.
-    let before = Edits { only_pins: false, ..edits.clone() };
-    let sheet = match &beside {
-        Some((_, sheet)) => sheet,
-        None => engine.run(recipe, &before)?.sheet,
-    };
+    let beside = sheet_beside(name, clip, file.length);
+    let sheet = beside.as_ref().map_or(sheet, |(_, sheet)| sheet);
     if file.length != sheet.cut_length() {
         return Err(Failure::AskedWrongly(format!(
             "{}: it has {} koma and the sheet of this clip {}, so its keys may stand on other koma here; was \
@@ -216,7 +154,7 @@ fn of_timesheet(
             sheet.cut_length()
         )));
     }
-    let pins = xdts::pins(column, numbered, sheet, frames)
+    let keys = xdts::pins(column, numbered, sheet, (clip.first(), clip.last()))
         .map_err(|error| Failure::AskedWrongly(format!("{}: {error}", name.display())))?;
     let has_marks =
         column.changes.iter().any(|change| change.circled || change.mark == Mark::Inbetween);
@@ -227,7 +165,7 @@ fn of_timesheet(
     if numbered == Numbered::Keys && !has_marks {
         notes.push("it has no inbetween marks, so every number on it is a key".into());
     }
-    Ok(Marked { pins, column: column.name.clone(), notes })
+    Ok(MarkedKeys::of_timesheet(name.into(), column.name.clone(), keys).with_notes(notes))
 }
 
 /// Finds the sheet of the clip that a timesheet of `length` koma was made from, with its path.

@@ -14,6 +14,7 @@ use genga::error::{Error, Warning};
 use genga::motion::Description;
 use genga::pipeline::Engine;
 use genga::recipe::{KNOBS, Recipe};
+use genga::sheet::Sheet;
 use genga::target::{self, Met, Target};
 use genga_files::ClipMark;
 
@@ -162,29 +163,50 @@ impl<'a> Plan<'a> {
         freeze_args::freeze(&args.corrections, engine, recipe, edits)?
             .into_iter()
             .for_each(&mut *note);
-        pin_args::marked(&args.corrections, engine, recipe, edits)?
-            .into_iter()
-            .for_each(&mut *note);
-        args.meet(engine, recipe, edits, words)?.into_iter().for_each(note);
+        let met = match &args.corrections.pin_from {
+            None => args.meet(engine, recipe, edits)?,
+            Some(file) => args.pin_marked(file, engine, (recipe, edits), note)?,
+        };
+        args.tell(&met, recipe, words)?.into_iter().for_each(note);
+        *recipe = met.recipe;
         Ok(())
     }
 }
 
 impl PlanArgs {
-    /// Finds the settings that meet the targets, puts them into the recipe and prints them. Returns a sentence for each
-    /// target that could not be met.
-    fn meet(
+    /// Pins those keys marked in a file that the sheet would not have, and finds the settings that meet the targets with
+    /// them.
+    fn pin_marked(
         &self,
+        file: &Path,
         engine: &mut Engine,
-        recipe: &mut Recipe,
-        edits: &Edits,
-        words: &Words,
-    ) -> Result<Vec<String>, Failure> {
+        (recipe, edits): (&Recipe, &mut Edits),
+        note: &mut dyn FnMut(String),
+    ) -> Result<Met, Failure> {
+        // The marked keys may be the only ones, so they are compared with a sheet that has others.
+        let unmarked = Edits { only_pins: false, ..edits.clone() };
+        let mut met = self.meet(engine, recipe, &unmarked)?;
+        let mut sheet = self.sheet(engine, &met.recipe, &unmarked)?;
+        let column = self.corrections.pin_column.as_deref();
+        let mut marked = pin_args::read((file, column), engine, &sheet)?;
+        let layer = pin_args::layer(&marked.column, engine, recipe)?.map(String::from);
+        let place = (layer.as_deref(), engine.clip().clock(recipe.rate));
+        // A pin may take the place of another marked key, which is then pinned too.
+        while marked.pin(&sheet, place, edits) {
+            met = self.meet(engine, recipe, edits)?;
+            sheet = self.sheet(engine, &met.recipe, edits)?;
+        }
+        marked.notes().into_iter().for_each(note);
+        Ok(met)
+    }
+
+    /// Finds the settings that meet the targets.
+    fn meet(&self, engine: &mut Engine, recipe: &Recipe, edits: &Edits) -> Result<Met, Failure> {
         let targets = self.targets.targets();
         if targets.is_empty() {
-            return Ok(vec![]);
+            return Ok(Met { recipe: recipe.clone(), outcomes: vec![] });
         }
-        let met = target::meet(engine, recipe, edits, &targets).map_err(|error| match error {
+        target::meet(engine, recipe, edits, &targets).map_err(|error| match error {
             // An error of a target is reported by its option, one of the recipe by its setting.
             Error::Setting { name, message }
                 if targets.iter().any(|target| target.name() == name) =>
@@ -192,17 +214,30 @@ impl PlanArgs {
                 Failure::AskedWrongly(format!("--{name}: {message}"))
             }
             other => files::fault_of(&self.clip.path)(other),
-        })?;
+        })
+    }
+
+    /// Makes the sheet.
+    fn sheet(&self, engine: &mut Engine, recipe: &Recipe, edits: &Edits) -> Result<Sheet, Failure> {
+        let breakdown = engine.run(recipe, edits).map_err(files::fault_of(&self.clip.path))?;
+        Ok(breakdown.sheet.clone())
+    }
+
+    /// Prints the settings that meet the targets, and returns a sentence for each target that could not be met. `recipe` has
+    /// the settings before.
+    fn tell(&self, met: &Met, recipe: &Recipe, words: &Words) -> Result<Vec<String>, Failure> {
+        if met.outcomes.is_empty() {
+            return Ok(vec![]);
+        }
         let changed = changes(recipe, &met.recipe)?.join(" ");
         let settings = if changed.is_empty() { "nothing to change" } else { &changed };
-        match furthest_off(&met) {
+        match furthest_off(met) {
             Some(error) => {
                 words.say(format_args!("found       {settings}; furthest off {error:.2} %"));
             }
             None if changed.is_empty() => {}
             None => words.say(format_args!("found       {settings}")),
         }
-        *recipe = met.recipe;
         let short = met.outcomes.iter().filter(|outcome| outcome.shortfall.is_some());
         Ok(short.map(ToString::to_string).collect())
     }

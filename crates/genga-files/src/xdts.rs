@@ -18,7 +18,7 @@ mod unread;
 mod write;
 
 pub use into::{IntoTimesheet, PaperColumn, PutInto};
-pub use pins::{Numbered, marked_keys, pins};
+pub use pins::{MarkedKey, Numbered, marked_keys, pins};
 pub use read::{Change, Column, Exchange, Mark, read, read_cells};
 pub use retimed::retimed;
 pub use tdts::Tdts;

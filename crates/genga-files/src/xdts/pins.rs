@@ -23,7 +23,16 @@ pub fn marked_keys(column: &Column, numbered: Numbered) -> Vec<&Change> {
     drawings.filter(|change| change.circled || !circled).collect()
 }
 
-/// Converts the marked keys of a column to pins, named by column and number, such as `A3`.
+/// A key that a person marked.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MarkedKey {
+    /// The key as a pin.
+    pub pin: Pin,
+    /// The koma that it is marked on, counted from the first drawing; `None` if a kept drawing is there already.
+    pub koma: Option<usize>,
+}
+
+/// Returns the marked keys of a column as pins, named by column and number, such as `A3`.
 ///
 /// `sheet` is the sheet without these pins, and provides the clock. If one of its kept drawings begins on a
 /// marked koma, the pin is that drawing's source frame. Otherwise it is the source frame nearest to the
@@ -37,8 +46,8 @@ pub fn pins(
     numbered: Numbered,
     sheet: &Sheet,
     (first, last): (Frame, Frame),
-) -> Result<Vec<Pin>, Error> {
-    let pin = |change: &Change| {
+) -> Result<Vec<MarkedKey>, Error> {
+    let key = |change: &Change| {
         let before = sheet.blank.before;
         let Some(koma) = change.koma.checked_sub(before) else {
             let (name, koma) = (&column.name, change.koma + 1);
@@ -60,15 +69,16 @@ pub fn pins(
             );
             return Err(Error::Edits { message });
         }
-        let place =
-            kept_on(sheet, &column.name, koma).unwrap_or_else(|| sheet.clock.place_from_koma(koma));
+        let kept = kept_on(sheet, &column.name, koma);
+        let place = kept.unwrap_or_else(|| sheet.clock.place_from_koma(koma));
         let frame = Frame((place.round().max(0.0) as usize).clamp(first.0, last.0));
         let Mark::Drawing(number) = &change.mark else { unreachable!("only drawings are keys") };
         // Command-line syntax of pins is FRAME:NAME,… so names must not contain these characters.
         let name = format!("{}{number}", column.name).replace([',', ':'], "_");
-        Ok(Pin { frame, name: Some(name), weight: None })
+        let pin = Pin { frame, name: Some(name), weight: None };
+        Ok(MarkedKey { pin, koma: kept.is_none().then_some(koma) })
     };
-    marked_keys(column, numbered).into_iter().map(pin).collect()
+    marked_keys(column, numbered).into_iter().map(key).collect()
 }
 
 /// The source place of the kept drawing that begins on a koma, if there is one, in the layer of that name or else in

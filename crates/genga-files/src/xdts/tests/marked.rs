@@ -2,7 +2,7 @@
 
 use super::sheets::{cut_of_24, layer, sheet};
 use super::writing::sample;
-use crate::xdts::{Column, Numbered, Xdts, marked_keys, pins, read};
+use crate::xdts::{Column, MarkedKey, Numbered, Xdts, marked_keys, pins, read};
 use genga::edits::Edits;
 use genga::pipeline::Engine;
 use genga::recipe::Recipe;
@@ -35,9 +35,12 @@ fn a_key_of_the_sheet_is_pinned_on_its_own_frame_and_another_on_that_of_its_koma
     let file = Xdts::default().write(&own, "c1").unwrap().genga;
     let file = file.replace("SYMBOL_TICK_1", "2a");
     let pins = pins(&column(&file), Numbered::Keys, &own, (Frame(10), Frame(39))).unwrap();
-    let pins: Vec<_> = pins.iter().map(|pin| (pin.frame.0, pin.name.as_deref().unwrap())).collect();
+    let key = |key: &MarkedKey| (key.pin.frame.0, key.pin.name.clone().unwrap(), key.koma);
+    let keys: Vec<_> = pins.iter().map(key).collect();
     // At 120 frames per second from frame 10, koma 2 is frame 20 and koma 4 is frame 30.
-    assert_eq!(pins, [(10, "A1"), (19, "A2"), (30, "A2a"), (19, "A3")]);
+    let named = |(frame, name, koma): (usize, &str, Option<usize>)| (frame, name.to_owned(), koma);
+    let expected = [(10, "A1", None), (19, "A2", None), (30, "A2a", Some(4)), (19, "A3", None)];
+    assert_eq!(keys, expected.map(named));
 }
 
 #[test]
@@ -60,7 +63,8 @@ fn the_keys_of_a_run_given_back_alone_are_the_same_keys() {
         let pins = pins(&column(&file), Numbered::Keys, &own, frames).unwrap();
         let kept: Vec<_> = own.layers[0].drawings.iter().filter(|d| d.role.is_kept()).collect();
         assert_eq!(pins.len(), kept.len());
-        let edits = Edits { pins, ..Edits::default() };
+        let pins = pins.into_iter().map(|key| key.pin);
+        let edits = Edits { pins: pins.collect(), ..Edits::default() };
         let mut engine = Engine::new(clip).unwrap();
         let again = engine.run(&recipe, &edits).unwrap().sheet;
         let places = |sheet: &Sheet| -> Vec<(usize, f64)> {
