@@ -338,7 +338,7 @@ impl Choose {
         let free = may_be(&Edits::default());
         let found = match edits.frozen.as_slice() {
             [] => pick(&free),
-            frames => self.frozen((clip, chords), frames, &free),
+            frames => self.frozen((clip, chords), judges.alike, frames, &free),
         };
         let chosen = if edits.again {
             pick(&corrected)
@@ -453,7 +453,7 @@ impl Choose {
         let walks = Walks::new(gaits, Drawable { found: &found.keys, edits, koma: apart, ends });
         walks.give(&mut keys, edits, apart);
         moved(&mut keys, edits, apart);
-        walks.lay(&mut keys, &found.keys, apart);
+        walks.lay(&mut keys, &found.keys, edits, apart);
         let reach = self.reach.frames(chords.clock().frame_rate).max(apart);
         let frames: Vec<Frame> = keys.iter().map(|key| key.frame).collect();
         let voters = voters(turns, weights, &frames, reach);

@@ -105,10 +105,12 @@ impl Choose {
         Chosen { keys, over_limit: chosen.over_limit }
     }
 
-    /// Returns the keys of an earlier sheet: the eligible key at each frame, else one that a person set.
+    /// Returns the keys of an earlier sheet: the eligible key at each frame, else one that a person set. The ends of the
+    /// rests that a key holds are among them, which a sheet does not draw.
     pub(crate) fn frozen(
         &self,
         (clip, chords): (&Clip, &Chords),
+        alike: &Alike,
         frames: &[Frame],
         eligible: &[Key],
     ) -> Chosen {
@@ -120,6 +122,14 @@ impl Choose {
             Err(_) => Key::set(*frame),
         };
         let mut keys: Vec<Key> = frames.iter().map(key).collect();
+        let is_held = |end: &&Key| {
+            let after = frames.partition_point(|frame| *frame <= end.frame);
+            let before = after.checked_sub(1).map_or(clip.first(), |at| frames[at]);
+            let holds = alike.last(chords.koma_of(before));
+            end.origin == Origin::Rest && before != end.frame && chords.koma_of(end.frame) <= holds
+        };
+        keys.extend(eligible.iter().filter(is_held).cloned());
+        keys.sort_by_key(|key| key.frame);
         self.price(&mut keys, clip, chords);
         Chosen { keys, over_limit: 0 }
     }

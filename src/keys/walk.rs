@@ -142,14 +142,23 @@ impl Walks {
     }
 
     /// Replaces the keys in regular steps by the steps' phases, which are `found` keys where a turn shows them. Keys
-    /// that a person set stay, and phases nearer to a key than a koma (`apart` frames) are dropped.
-    pub(super) fn lay(&self, keys: &mut Vec<Key>, found: &[Key], apart: f64) {
+    /// that a person set stay, and phases nearer to a key than a koma (`apart` frames) are dropped. A frozen phase is a
+    /// phase again.
+    pub(super) fn lay(&self, keys: &mut Vec<Key>, found: &[Key], edits: &Edits, apart: f64) {
         let steps = || self.0.iter().flat_map(Walk::regular);
         let turn = |frame: Frame| {
             found.iter().find(|key| key.origin == Origin::Turn && key.frame == frame)
         };
         let is_within = |frame: Frame| steps().any(|step| step.covers(frame, NEAR * apart));
-        keys.retain(|key| key.origin.is_set() || !is_within(key.frame));
+        let is_frozen_phase = |key: &Key| {
+            let is_pin = edits.pins.iter().any(|pin| pin.frame == key.frame);
+            let is_phase = |step: &WalkStep| step.frames.contains(&Some(key.frame));
+            key.origin == Origin::Pinned && !is_pin && steps().any(is_phase)
+        };
+        keys.retain(|key| match key.origin.is_set() {
+            true => !is_frozen_phase(key),
+            false => !is_within(key.frame),
+        });
         let mut frames: Vec<Frame> =
             steps().flat_map(|step| &step.frames).copied().flatten().collect();
         frames.sort_unstable();

@@ -345,7 +345,7 @@ impl LayerStages {
             let motion = (&**clip.value(), chords.value());
             let before = match edits.frozen.as_slice() {
                 [] => before.value().clone(),
-                frames => choose.frozen(motion, frames, &free),
+                frames => choose.frozen(motion, &alike, frames, &free),
             };
             let word = Word { edits, koma: *koma, apart: *apart, alike: &alike };
             let is_bare = edits.pins.is_empty() && edits.forbidden.is_empty();

@@ -2,6 +2,7 @@
 
 use std::fs;
 
+use crate::clips::with;
 use crate::program::{Place, column, text};
 
 /// Number of genga rows in a key table.
@@ -376,6 +377,35 @@ fn the_genga_of_an_earlier_run_are_frozen_and_corrected() {
     );
     let other = place.refused(1, "keys data/kick.bvh --freeze a --trim 0..20");
     assert!(other.contains("is not in the clip, which has frames 0 to"), "{other}");
+}
+
+#[test]
+fn frozen_keys_hold_rests_as_long_as_before() {
+    for recipe in ["", "--set spacing.on=1", "--pin 20,42 --forbid 55"] {
+        let place = Place::new();
+        place.done(&format!("run data/kick.bvh {recipe} --out a"));
+        place.done(&format!("run data/kick.bvh {recipe} --freeze a --out b"));
+        let (a, b) = (place.files("a"), place.files("b"));
+        for file in ["sheet.csv", "drawings.csv", "limited.bvh"] {
+            assert!(a[file] == b[file], "{recipe}: {file}");
+        }
+    }
+}
+
+#[test]
+fn the_steps_of_a_frozen_gait_stay_steps_on_their_koma() {
+    with(["cmu-07_01-walk", "cmu-09_01-run"], |clips| {
+        for clip in clips {
+            let (place, clip) = (Place::new(), clip.display());
+            place.done(&format!("run {clip} --out a"));
+            place.done(&format!("run {clip} --freeze a --out b"));
+            let drawn = |folder: &str| {
+                let table = fs::read_to_string(place.path(&format!("{folder}/keys.csv"))).unwrap();
+                ["role", "reason", "koma_first", "source_frame"].map(|name| column(&table, name))
+            };
+            assert_eq!(drawn("a"), drawn("b"), "{clip}");
+        }
+    });
 }
 
 #[test]

@@ -39,7 +39,7 @@ fn laid(edits: &Edits) -> Vec<(f64, Origin)> {
     crate::keys::correct::moved(&mut keys, edits, KOMA);
     keys.extend(edits.pins.iter().map(|pin| Key::set(pin.frame)));
     keys.sort_by_key(|key| key.frame);
-    walks.lay(&mut keys, &found, KOMA);
+    walks.lay(&mut keys, &found, edits, KOMA);
     keys.iter().map(|key| (key.frame.0 as f64 / KOMA, key.origin)).collect()
 }
 
@@ -163,7 +163,7 @@ fn a_correction_of_one_step_moves_no_phase_of_another() {
         let ends = (Frame(0), Frame(450));
         let walks = Walks::new(&[gait()], Drawable { found: &keys, edits, koma: KOMA, ends });
         let mut laid: Vec<Key> = edits.pins.iter().map(|pin| Key::set(pin.frame)).collect();
-        walks.lay(&mut laid, &keys, KOMA);
+        walks.lay(&mut laid, &keys, edits, KOMA);
         laid
     };
     let free = frames(&Edits::default());
@@ -202,4 +202,19 @@ fn where_keys_are_frozen_steps_stay_that_were_there_and_no_others_come() {
 fn fewer_phases_fit_into_shorter_steps() {
     let count = |koma: f64| Phase::with_room(koma).len();
     assert_eq!([20.0, 8.0, 7.9, 4.0, 3.9].map(count), [4, 4, 2, 2, 1]);
+}
+
+#[test]
+fn a_frozen_phase_is_a_phase_again() {
+    let laid = |found: &[Key], edits: &Edits| {
+        let ends = (Frame(0), Frame(450));
+        let walks = Walks::new(&[gait()], Drawable { found, edits, koma: KOMA, ends });
+        let mut keys = found.to_vec();
+        walks.lay(&mut keys, found, edits, KOMA);
+        keys
+    };
+    let free = laid(&[], &Edits::default());
+    let frames: Vec<Frame> = free.iter().map(|key| key.frame).collect();
+    let found: Vec<Key> = frames.iter().copied().map(Key::set).collect();
+    assert_eq!(laid(&found, &Edits { frozen: frames, ..Edits::default() }), free);
 }
