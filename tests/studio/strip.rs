@@ -136,7 +136,7 @@ fn a_double_click_takes_one_genga_away() {
         assert_eq!(table.edits().forbidden.len(), 1, "koma {koma}");
         table.harness.hover_at(button.center() + vec2(0.0, 1.0));
         table.harness.run_steps(2);
-        let other = ["Forbid", "No genga on"].map(|name| table.button_on_strip(name));
+        let other = ["Forbid", "Forbidden koma"].map(|name| table.button_on_strip(name));
         let is_under = |other: &Rect| other.contains(button.center());
         under += usize::from(other.into_iter().flatten().any(|other| is_under(&other)));
         table.tap(Modifiers::COMMAND, Key::Z);
@@ -152,10 +152,10 @@ fn a_cross_on_the_strip_says_where_no_genga_may_stand_and_lifts_the_ban() {
     table.second_genga();
     table.tap(Modifiers::NONE, Key::K);
     assert_eq!(table.edits().forbidden.len(), 1);
-    let cross = table.button_on_strip("No genga on koma").expect("the ban has a cross");
+    let cross = table.button_on_strip("Forbidden koma").expect("the ban has a cross");
     table.click_at(cross.center(), PointerButton::Primary);
     assert!(table.edits().is_empty());
-    assert_eq!(table.button_on_strip("No genga on koma"), None);
+    assert_eq!(table.button_on_strip("Forbidden koma"), None);
     assert_eq!(table.genga(), genga, "the genga is back");
 }
 

@@ -176,7 +176,7 @@ pub(super) fn sliding_poses(
 }
 
 /// Formats a length of time as on a sheet: seconds + koma.
-pub(super) fn seconds_and_koma(koma: usize, koma_rate: f64) -> String {
+pub fn seconds_and_koma(koma: usize, koma_rate: f64) -> String {
     let second = koma_rate.round().max(1.0) as usize;
     format!("{}+{}", koma / second, koma % second)
 }

@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::Camera;
 use genga::motion::Clip;
 
-pub use super::drawings::{ShownDrawing, shown_drawings};
+pub use super::drawings::{ShownDrawing, seconds_and_koma, shown_drawings};
 pub use super::figure::{Drawn, Figure, FigureBody, Ink, Shape, bones};
 pub use super::heat::color as heat;
 pub use super::points::{Posing, Showing};

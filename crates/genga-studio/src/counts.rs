@@ -4,7 +4,7 @@ use super::words::Words;
 use genga::pipeline::{Breakdown, LayerBreakdown};
 use genga::sheet::Layer;
 use genga::timing::On;
-use genga_plot::parts::Moves;
+use genga_plot::parts::{self, Moves};
 
 /// The numbers a producer asks for, over all columns.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -45,7 +45,10 @@ impl Counts {
         let hold = changed((self.longest_hold, before.longest_hold));
         let koma = self.koma;
         match words.is_japanese() {
-            true => [("最長の止め", format!("{hold}コマ")), ("尺", format!("{koma}コマ"))],
+            true => {
+                let length = parts::seconds_and_koma(koma, self.koma_rate);
+                [("最長の止め", format!("{hold}コマ")), ("尺", format!("{length} · {koma}コマ"))]
+            }
             false => [("longest hold", format!("{hold} koma")), ("length", format!("{koma} koma"))],
         }
     }

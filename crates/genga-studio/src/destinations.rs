@@ -34,11 +34,11 @@ static DESTINATIONS: [Destination; 8] = [
         writes_japanese: "カット袋: タイムシート (XDTS) と番号付きの絵",
         next: "In Clip Studio Paint EX: put the pictures of genga/A into an animation folder A as its cels, genga 9 is \
                A_0009.png. Then File, Import, Timesheet, and choose the _genga_ts.xdts. The folder douga and the \
-               _douga_ts.xdts are the same with the inbetweens, numbered anew. Each timesheet is there twice, in the \
-               cut and beside its pictures.",
+               _douga_ts.xdts are the same with the inbetweens, numbered anew. The timesheets call the cels \
+               1, 2, 3. Each is there twice, in the cut and beside its pictures.",
         next_japanese: "CLIP STUDIO PAINT EX でアニメーションフォルダー A を作り、genga/A の絵をセルとして入れる (原画9は \
                         A_0009.png)。次に「ファイル」→「読み込み」→「タイムシート情報」で _genga_ts.xdts を選ぶ。中割りも\
-                        入れるなら、動画の番号の付いた douga/A と _douga_ts.xdts を使う。同じタイムシートがカット袋と絵の隣の2か所にある。",
+                        入れるなら、動画の番号の付いた douga/A と _douga_ts.xdts を使う。シートの上のセル名は 1、2、3。同じタイムシートがカット袋と絵の隣の2か所にある。",
     },
     Destination {
         english: "OpenToonz",

@@ -67,6 +67,14 @@ pub(super) struct Difference {
     pub(super) places: Vec<usize>,
 }
 
+impl Changed {
+    /// Whether the genga on a koma came or moved.
+    pub(super) fn has(&self, koma: usize) -> bool {
+        let moved = self.shifted.binary_search_by_key(&koma, |own| own.to);
+        self.came.binary_search(&koma).is_ok() || moved.is_ok()
+    }
+}
+
 impl Gone {
     /// Its source frame.
     pub(super) fn frame(&self) -> Frame {

@@ -119,7 +119,7 @@ impl Studio {
             Command::Movement => self.curves.movement = !self.curves.movement,
             Command::FocusName => self.key_panel.wants_focus = true,
             Command::Save => self.save(),
-            Command::AskExport => self.ask_export(),
+            Command::AskExport => self.ask_export(ui.input(|input| input.pointer.any_click())),
             Command::Export(order) => self.export(*order),
             Command::StopExport => self.exporting.iter().for_each(Exporting::stop),
             Command::ChooseFolder => self.choose_folder(),

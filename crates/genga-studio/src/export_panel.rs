@@ -46,10 +46,13 @@ pub(super) struct OrderPanel {
 
 impl OrderPanel {
     /// Opens the panel with an initial order.
-    pub(super) fn ask(&mut self, order: Order, desk: &dyn Host) {
+    ///
+    /// A pointer needs no focus, and a focused card would look chosen.
+    pub(super) fn ask(&mut self, order: Order, desk: &dyn Host, is_by_pointer: bool) {
         self.folder = order.folder.display().to_string();
         (self.always, self.has_folders) = (desk.always(), desk.has_names());
-        (self.order, self.wants_focus) = (Some(order), true);
+        self.wants_focus = !is_by_pointer || !order.formats.is_empty();
+        self.order = Some(order);
     }
 
     /// Takes over a folder chosen in the dialog.
@@ -154,10 +157,15 @@ impl OrderPanel {
             Some(destination) => destination.writes(words).to_owned(),
             None => order.formats.join(" "),
         };
-        ui.weak(match (own.as_str(), words.is_japanese()) {
-            ("", _) => all.to_owned(),
-            (own, true) => format!("{own}、ほかに{all}"),
-            (own, false) => format!("{own}; {all}"),
+        if own.is_empty() {
+            let only =
+                words.say("No card is chosen: only ", "届け先が選ばれていません。書き出すのは");
+            ui.label(RichText::new(format!("{only}{all}")).color(ui.visuals().warn_fg_color));
+            return;
+        }
+        ui.weak(match words.is_japanese() {
+            true => format!("{own}、ほかに{all}"),
+            false => format!("{own}; {all}"),
         });
     }
 }

@@ -70,12 +70,12 @@ impl Studio {
     }
 
     /// Opens the export panel with the last order, unless an export is running.
-    pub(super) fn ask_export(&mut self) {
+    pub(super) fn ask_export(&mut self, is_by_pointer: bool) {
         let (Some(take), None) = (&self.take, &self.exporting) else { return };
         let folder = self.export_folder(take);
         let order = Order::remembered(&self.desk.noted(EXPORT).unwrap_or_default(), folder);
         self.player.stop();
-        self.order.ask(order, &*self.desk);
+        self.order.ask(order, &*self.desk, is_by_pointer);
     }
 
     /// The folder into which a take is exported unless another is chosen.

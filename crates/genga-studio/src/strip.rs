@@ -16,7 +16,7 @@ use self::figures::Passage;
 use self::layout::Layout;
 use self::pointer::Hand;
 use super::command::Command;
-use super::difference::Difference;
+use super::difference::{Changed, Difference};
 use super::focus::{self, Part};
 use super::key_menu;
 use super::player::Player;
@@ -98,15 +98,17 @@ impl Strip {
         }
         let layout = Layout::new(rect, self.window.scale(inside));
         let hovered = self.hovered.as_ref().map(Passage::cell);
-        let figured = choice::choose(&layout, shown, player.is_playing(), hovered);
+        let changed = difference.and_then(|all| all.columns.get(shown.chosen));
+        let figured = choice::choose(&layout, shown, player.is_playing(), (hovered, changed));
         let bans = bans::of(&layout, shown);
         self.hover(ui, &layout, (&figured, &bans), response.dragged(), shown);
         self.hand.handle(&response, &layout, &figured, shown, commands);
-        self.draw(ui, &layout, &figured, (shown, difference), (orbit, player));
+        self.draw(ui, &layout, (&figured, &bans), (shown, changed), (orbit, player));
         bans::draw(&ui.painter_at(rect), &bans, &shown.look);
         self.press(ui, &layout, &bans, shown, commands);
         name(&response, shown);
         let response = feet::explain(response, &layout, shown);
+        let response = figures::explain(response, &layout, &figured, (shown, changed));
         response.context_menu(|ui| match &self.hand.asked {
             Some(key) => key_menu::show(ui, key, shown, commands),
             None => key_menu::show_none(ui, shown, commands),
@@ -182,8 +184,8 @@ impl Strip {
         &self,
         ui: &Ui,
         layout: &Layout,
-        figured: &[usize],
-        (shown, difference): (&Shown<'_>, Option<&Difference>),
+        (figured, bans): (&[usize], &[Ban]),
+        (shown, changed): (&Shown<'_>, Option<&Changed>),
         (orbit, player): (&Orbit, &Player),
     ) {
         let (painter, look) = (ui.painter_at(layout.rect), &shown.look);
@@ -203,9 +205,11 @@ impl Strip {
         let (x, top) = (layout.x(shown.at), layout.rect.min.y + NUMBERS);
         painter.vline(x, top..=layout.rect.max.y, Stroke::new(2.0, look.playhead));
         track::draw(&painter, layout, figured, shown);
-        let changed = difference.and_then(|all| all.columns.get(shown.chosen));
         let passage = self.hovered.as_ref().map(|own| (own, ui.input(|input| input.time)));
-        figures::draw(&painter, layout, (figured, passage), (shown, orbit), changed);
+        let pointed = ui.input(|input| input.pointer.hover_pos());
+        let ban = pointed.and_then(|at| bans.iter().find(|ban| ban.is_at(at)));
+        let banned: Vec<f64> = ban.into_iter().flat_map(Ban::taken).collect();
+        figures::draw(&painter, layout, (figured, passage), (shown, orbit), (changed, &banned));
     }
 }
 

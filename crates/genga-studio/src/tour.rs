@@ -34,13 +34,13 @@ const STEPS: [Step; 6] = [
     },
     Step {
         english: "A figure that must stay: point at it, and pin it with the pin over it. Any other koma: click it, and \
-                  press K.",
-        japanese: "残すポーズは、ポインターを置いて上のピンで固定する。ほかのコマは、クリックして K。",
+                  press L.",
+        japanese: "残すポーズは、ポインターを置いて上のピンで固定する。ほかのコマは、クリックして L。",
         asks_for: |command| {
             let is_pin =
                 |own: &Correction| matches!(own, Correction::PinKey(_) | Correction::Pin(_));
             match command {
-                Command::Pin | Command::ToggleKey => true,
+                Command::Pin => true,
                 Command::Correct(correction) => is_pin(correction),
                 _ => false,
             }

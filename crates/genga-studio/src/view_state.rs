@@ -134,6 +134,29 @@ impl<'a> Shown<'a> {
         [from, to.max(from)]
     }
 
+    /// The found genga that a ban takes away from a column, by their frames. A genga belongs to the shortest ban.
+    pub(super) fn taken_away(&self, column: &Column<'_>, ban: Forbidden) -> Vec<Frame> {
+        let edits = self.wanted.edits.of_layer(column.name);
+        let length = |ban: &Forbidden| ban.past.0 - ban.from.0;
+        let koma = column.clock.frames_in_koma();
+        let is_its = |frame: &Frame| {
+            let bans = edits.forbidden.iter().filter(|own| own.reaches(*frame, koma));
+            bans.min_by_key(|own| length(own)) == Some(&ban)
+        };
+        column.found.uncorrected.iter().map(|key| key.frame).filter(is_its).collect()
+    }
+
+    /// The koma, in the middle of a ban or of the one genga that it takes away.
+    pub(super) fn middle_of_ban(&self, column: &Column<'_>, ban: Forbidden) -> f32 {
+        match self.taken_away(column, ban).as_slice() {
+            [frame] => column.clock.koma_from_frame(*frame) as f32,
+            _ => {
+                let [from, to] = self.koma_of_ban(column, ban);
+                0.5 * (from + to.min(column.length.saturating_sub(1))) as f32
+            }
+        }
+    }
+
     /// Names the koma on which a source frame is shown, or the frame if frames are counted.
     pub(super) fn named(&self, frame: Frame) -> String {
         let koma = || self.column().koma_of(frame) + 1;
@@ -141,16 +164,22 @@ impl<'a> Shown<'a> {
         self.counted(&number.to_string())
     }
 
-    /// Names the koma of a ban in the selected column, or its frames if frames are counted.
+    /// Names the koma of a ban in the selected column, or its frames if frames are counted, and before them that of the
+    /// one genga that it takes away.
     pub(super) fn named_ban(&self, ban: Forbidden) -> String {
+        let column = self.column();
+        let number = |frame: Frame| match self.counts_frames {
+            true => frame.0,
+            false => column.clock.koma_from_frame(frame) + 1,
+        };
         let [from, to] = match self.counts_frames {
             true => self.ends(ban).map(|frame| frame.0),
-            false => self.koma_of_ban(self.column(), ban).map(|koma| koma + 1),
+            false => self.koma_of_ban(column, ban).map(|koma| koma + 1),
         };
-        if from == to {
-            self.counted(&from.to_string())
-        } else {
-            self.counted(&format!("{from}–{to}"))
+        let range = if from == to { from.to_string() } else { format!("{from}–{to}") };
+        match self.taken_away(column, ban).as_slice() {
+            [frame] if from != to => self.counted(&format!("{} ({range})", number(*frame))),
+            _ => self.counted(&range),
         }
     }
 

@@ -61,6 +61,6 @@ await busy("played", async () => {
 });
 await busy("exported", async () => {
   await studio.click("Export");
-  await Promise.all([studio.page.waitForEvent("download"), studio.press("Enter")]);
+  await Promise.all([studio.page.waitForEvent("download"), studio.click("Write the files")]);
 });
 await browser.close();

@@ -12,6 +12,7 @@ use crate::label_culling::Room;
 use crate::theme::Look;
 use crate::view_state::Shown;
 use genga::edits::Forbidden;
+use genga::time::Frame;
 
 /// Half the side of a cross, and its distance to the next and to the upper edge of the figures, in points.
 const HALF: f32 = 3.5;
@@ -26,6 +27,8 @@ pub(super) struct Ban {
     range: Forbidden,
     /// The column that it is of. `None` for all columns.
     column: Option<String>,
+    /// Frames of the genga that it takes away.
+    taken: Vec<Frame>,
     line: Rangef,
     at: Pos2,
     /// Whether its cross is drawn.
@@ -36,6 +39,11 @@ impl Ban {
     /// Whether its cross is at a position.
     pub(super) fn is_at(&self, at: Pos2) -> bool {
         self.has_cross && self.room().contains(at)
+    }
+
+    /// The places of the source that the genga show which it takes away.
+    pub(super) fn taken(&self) -> impl Iterator<Item = f64> {
+        self.taken.iter().map(|frame| frame.0 as f64)
     }
 
     fn room(&self) -> Rect {
@@ -54,10 +62,12 @@ pub(super) fn of(layout: &Layout, shown: &Shown<'_>) -> Vec<Ban> {
         let [from, to] = shown.koma_of_ban(column, range);
         let [left, right] = [from, to.min(column.length.saturating_sub(1))]
             .map(|koma| layout.x(koma) + 0.5 * layout.koma());
+        let x = layout.time.x(f64::from(shown.middle_of_ban(column, range)) + 0.5);
         // Above the figures, where no number covers it.
-        let at = pos2(0.5 * (left + right), layout.figures.min.y + BELOW);
+        let at = pos2(x, layout.figures.min.y + BELOW);
+        let (line, taken) = (Rangef::new(left, right), shown.taken_away(column, range));
         let has_cross = layout.rect.contains(at) && room.take(at.x, APART);
-        Ban { range, column: column_of, line: Rangef::new(left, right), at, has_cross }
+        Ban { range, column: column_of, taken, line, at, has_cross }
     };
     all.chain(own).map(ban).collect()
 }
@@ -92,7 +102,7 @@ pub(super) fn handle(ui: &Ui, bans: &[Ban], shown: &Shown<'_>, commands: &mut Ve
 fn name(ban: &Ban, shown: &Shown<'_>) -> String {
     let place = shown.named_ban(ban.range);
     match shown.words.is_japanese() {
-        true => format!("{place}は原画禁止。クリックで解除"),
-        false => format!("No genga on {place}. Click to allow them"),
+        true => format!("禁止 {place}。クリックで解除"),
+        false => format!("Forbidden {place}. Click to allow it"),
     }
 }

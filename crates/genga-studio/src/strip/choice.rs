@@ -2,19 +2,22 @@
 
 use super::layout::Layout;
 use crate::column::KeyedCell;
+use crate::difference::Changed;
 use crate::view_state::Shown;
 
-/// Worth of what a person set, and of what has no price: ends of the clip, of rests and of contacts.
+/// Worth of what the last change made or moved, of what a person set, and of what has no price: ends of the clip, of
+/// rests and of contacts.
+const CHANGED: f64 = 1e12;
 const SET: f64 = 1e9;
 const STAYS: f64 = 1e6;
 
 /// Chooses the genga in view that have figures: indices among the cells of the column, in order. The one under the
-/// pointer is among them, and unless it plays that at the play head.
+/// pointer is among them, unless it plays that at the play head, and those that the last change made or moved.
 pub(super) fn choose(
     layout: &Layout,
     shown: &Shown<'_>,
     is_playing: bool,
-    hovered: Option<usize>,
+    (hovered, changed): (Option<usize>, Option<&Changed>),
 ) -> Vec<usize> {
     let seen = layout.seen(shown);
     let cells = &shown.column().cells;
@@ -23,6 +26,7 @@ pub(super) fn choose(
     let worth = |at: usize| match Some(at) {
         own if own == hovered => f64::INFINITY,
         own if own == current => f64::MAX,
+        _ if changed.is_some_and(|changed| changed.has(cells[at].koma)) => CHANGED,
         _ => worth(&cells[at]),
     };
     let marks: Vec<(usize, f32, f64)> =

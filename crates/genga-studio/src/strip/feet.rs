@@ -28,9 +28,9 @@ pub(super) fn explain(response: Response, layout: &Layout, shown: &Shown<'_>) ->
     let Some(stand) = stands(shown).find(is_there) else { return response };
     let words = shown.words;
     response.on_hover_text_at_pointer(match stand.side {
-        BodySide::Left => words.say("The left foot stands", "左足が接地"),
-        BodySide::Right => words.say("The right foot stands", "右足が接地"),
-        BodySide::Trunk => words.say("A foot stands", "足が接地"),
+        BodySide::Left => words.say("The left foot stands still", "左足が止まって接地"),
+        BodySide::Right => words.say("The right foot stands still", "右足が止まって接地"),
+        BodySide::Trunk => words.say("A foot stands still", "足が止まって接地"),
     })
 }
 

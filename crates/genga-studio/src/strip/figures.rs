@@ -1,6 +1,6 @@
 //! Draws the figures of the strip, the ghosts of genga that went, and the passage that plays under the pointer.
 
-use egui::{Painter, Pos2, Rect, Stroke, Ui, Vec2, pos2, vec2};
+use egui::{Painter, Pos2, Rect, Response, Stroke, Ui, Vec2, pos2, vec2};
 use glam::DVec3;
 
 use super::layout::Layout;
@@ -23,6 +23,9 @@ const STILL: f64 = 0.8;
 const REST: usize = 8;
 /// Side of a button on a figure, in points.
 const BUTTON: f32 = 16.0;
+/// Place of a sign in the room of its figure, below its buttons, and radius, in points.
+const SIGN: Vec2 = vec2(8.0, 26.0);
+const RADIUS: f32 = 6.5;
 
 /// The passage from the genga under the pointer to the next.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -76,20 +79,23 @@ impl Passage {
     }
 }
 
-/// Draws the ghosts of a change, then the figures.
+/// Draws the ghosts of a change and of what the ban under the pointer takes away, then the figures.
 pub(super) fn draw(
     painter: &Painter,
     layout: &Layout,
     (figured, passage): (&[usize], Option<(&Passage, f64)>),
     (shown, orbit): (&Shown<'_>, &Orbit),
-    changed: Option<&Changed>,
+    (changed, banned): (Option<&Changed>, &[f64]),
 ) {
     let painter = &painter.with_clip_rect(layout.rect.intersect(painter.clip_rect()));
     let mut place = Place::new(layout, shown, orbit);
-    if let Some(changed) = changed {
-        ghosts(painter, layout, &mut place, changed, shown);
-    }
     let column = shown.column();
+    let first = column.clock.place_from_koma(0);
+    let koma_of = |place: &f64| (place - first) / column.clock.frames_in_koma();
+    let banned = banned.iter().map(|place| (layout.time.x(koma_of(place)), *place));
+    let gone = changed.iter().flat_map(|changed| &changed.gone);
+    let gone = gone.map(|gone| (layout.x(gone.koma), gone.place));
+    ghosts(painter, layout, &mut place, banned.chain(gone), shown);
     let mut posing = shown.on_screen.posing(shown.scene.figure.marks());
     for &own in figured {
         let cell = &column.cells[own];
@@ -98,34 +104,67 @@ pub(super) fn draw(
         let koma = played.and_then(|(passage, now)| passage.at(now, shown)).unwrap_or(cell.koma);
         let pose = posing.koma(koma);
         draw_body(painter, &place.stage(x, &pose).draw(&pose), Inks::Sides, &shown.look);
-        if let Some(sign) = changed.and_then(|changed| Sign::of(cell.koma, changed)) {
-            sign.draw(painter, layout.slot(x).left_top() + vec2(8.0, 8.0), &shown.look);
-        }
+    }
+    for (sign, at, _) in signs(layout, figured, shown, changed) {
+        sign.draw(painter, at, &shown.look);
     }
 }
 
-/// Draws the genga that went, as pale figures where they stood.
+/// Draws genga that are not there, as pale figures where they stood.
 fn ghosts(
     painter: &Painter,
     layout: &Layout,
     place: &mut Place<'_>,
-    changed: &Changed,
+    gone: impl Iterator<Item = (f32, f64)>,
     shown: &Shown<'_>,
 ) {
     let look = &shown.look;
     let mut posing = Posing::new(shown.breakdown.clip, shown.scene.figure.marks());
     let mut room = Room::default();
-    for gone in &changed.gone {
-        let x = layout.x(gone.koma);
+    for (x, source) in gone {
         let is_seen = layout.rect.x_range().contains(x);
         if !is_seen || !room.take(x, 0.4 * layout.wide) {
             continue;
         }
-        let pose = posing.points(Source::At(gone.place));
+        let pose = posing.points(Source::At(source));
         let ink = Inks::One(look.faint.gamma_multiply(0.55), 0.8);
         draw_body(painter, &place.stage(x, &pose).draw(&pose), ink, look);
         Sign::Gone.draw(painter, layout.slot(x).right_top() + vec2(-8.0, 8.0), look);
     }
+}
+
+/// The signs on the figures of what the last change did to them, with their places and their koma before, from 0.
+fn signs(
+    layout: &Layout,
+    figured: &[usize],
+    shown: &Shown<'_>,
+    changed: Option<&Changed>,
+) -> Vec<(Sign, Pos2, usize)> {
+    let sign = |own: &usize| {
+        let koma = shown.column().cells[*own].koma;
+        let (sign, before) = Sign::of(koma, changed?)?;
+        Some((sign, layout.slot(layout.x(koma)).left_top() + SIGN, before))
+    };
+    figured.iter().filter_map(sign).collect()
+}
+
+/// Says of the sign under the pointer what it means.
+pub(super) fn explain(
+    response: Response,
+    layout: &Layout,
+    figured: &[usize],
+    (shown, changed): (&Shown<'_>, Option<&Changed>),
+) -> Response {
+    let Some(at) = response.hover_pos() else { return response };
+    let mut signs = signs(layout, figured, shown, changed).into_iter();
+    let found = signs.find(|(_, middle, _)| middle.distance(at) <= RADIUS);
+    let Some((sign, _, before)) = found else { return response };
+    response.on_hover_text_at_pointer(match (sign, shown.words.is_japanese()) {
+        (Sign::Came, true) => "この変更でできた原画".to_owned(),
+        (Sign::Came, false) => "New by the last change".to_owned(),
+        (_, true) => format!("この変更でコマ{}から移った原画", before + 1),
+        (_, false) => format!("Moved by the last change. It was on koma {}", before + 1),
+    })
 }
 
 /// The sign on a figure of what the last change did to it.
@@ -138,20 +177,20 @@ enum Sign {
 }
 
 impl Sign {
-    /// The sign of the genga on a koma. `None` if it is as it was.
-    fn of(koma: usize, changed: &Changed) -> Option<Self> {
+    /// The sign of the genga on a koma, and its koma before. `None` if it is as it was.
+    fn of(koma: usize, changed: &Changed) -> Option<(Self, usize)> {
         if changed.came.binary_search(&koma).is_ok() {
-            return Some(Self::Came);
+            return Some((Self::Came, koma));
         }
         let at = changed.shifted.binary_search_by_key(&koma, |own| own.to).ok()?;
         let Shifted { from, to } = changed.shifted[at];
-        Some(if to > from { Self::Later } else { Self::Earlier })
+        Some((if to > from { Self::Later } else { Self::Earlier }, from))
     }
 
     /// Draws it in a disc. It is drawn by lines, so that no font needs it.
     fn draw(self, painter: &Painter, middle: Pos2, look: &Look) {
         let color = if self == Self::Came { look.wall } else { look.faint };
-        painter.circle_filled(middle, 6.5, color);
+        painter.circle_filled(middle, RADIUS, color);
         let stroke = Stroke::new(1.5, look.paper);
         let line = |from: Vec2, to: Vec2| {
             painter.line_segment([middle + from, middle + to], stroke);

@@ -175,10 +175,12 @@ impl Strip<'_> {
             return;
         }
         let [top, bottom] = [from, to].map(|koma| self.middle(koma) - vec2(13.0, 0.0));
+        let share = self.shown.middle_of_ban(self.column, range) - from as f32;
+        let share = share / (to - from).max(1) as f32;
         let ink = self.shown.look.genga;
         self.painter.vline(top.x, top.y..=bottom.y, Stroke::new(1.0, ink.gamma_multiply(0.5)));
         let half = 3.0_f32.min(0.4 * self.paper.row);
-        cross(self.painter, top.lerp(bottom, 0.5), half, Stroke::new(1.6, ink));
+        cross(self.painter, top.lerp(bottom, share), half, Stroke::new(1.6, ink));
     }
 }
 
