@@ -1,8 +1,9 @@
 //! Pins from keys that a person marked in one of genga's own files: the genga of an edited table or sheet.
 
-use csv::{ReaderBuilder, StringRecord};
+use csv::StringRecord;
 
 use crate::sheet_json::SheetFile;
+use crate::table::table_reader;
 use genga::edits::Pin;
 use genga::error::{Cause, Error};
 use genga::sanitize::text_of;
@@ -23,13 +24,7 @@ pub fn pins_from_table(bytes: &[u8], column: Option<&str>) -> Result<(Vec<Pin>, 
     let text = std::str::from_utf8(bytes).map_err(|error| {
         no_table("this is not text in UTF-8; save the table as CSV in UTF-8".into(), error)
     })?;
-    let header = text.lines().next().unwrap_or_default();
-    let parted_by = [b',', b';', b'\t'];
-    let count = |byte: &u8| header.bytes().filter(|other| other == byte).count();
-    // On a tie the last one wins: a comma if there is only one column.
-    let delimiter = parted_by.into_iter().rev().max_by_key(count).unwrap_or(b',');
-    let mut reader =
-        ReaderBuilder::new().delimiter(delimiter).flexible(true).from_reader(text.as_bytes());
+    let mut reader = table_reader(text);
     let failed = |error: csv::Error| no_table(format!("is no table: {error}"), error);
     let table = Table::from_header(reader.headers().map_err(failed)?)?;
     let mut keys = Vec::new();

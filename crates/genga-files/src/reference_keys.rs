@@ -1,6 +1,7 @@
 //! Reference keys (another person's or program's), against which a sheet is judged.
 
 use crate::sheet_json;
+use crate::table::table_reader;
 use genga::error::Error;
 use genga::motion::Clip;
 use genga::sheet::Role;
@@ -23,7 +24,7 @@ const FRAMES: [&str; 2] = ["source_frame", "frame"];
 ///
 /// - a `sheet.json`, whose genga are the keys;
 /// - a table as `genga keys` writes it, or any CSV with a column `frame` or `source_frame`; rows whose
-///   `role` is not genga are skipped;
+///   `role` is not genga are skipped, and fields may be separated by semicolons or tabs too;
 /// - a list of frames, one per line, in which `#` begins a comment;
 /// - an MMD motion (.vmd): the frames on which a bone of the body has a key. It runs at 30 frames per second,
 ///   and its frame 0 is the first frame of the `clip`.
@@ -94,8 +95,7 @@ fn listed(text: &str) -> Result<Vec<Frame>, Error> {
 }
 
 fn of_table(text: &str) -> Result<Vec<Frame>, Error> {
-    let mut table =
-        csv::ReaderBuilder::new().trim(csv::Trim::All).flexible(true).from_reader(text.as_bytes());
+    let mut table = table_reader(text);
     let failed = |error: csv::Error| Error::sheet(format!("this is no table: {error}"));
     let header = table.headers().map_err(failed)?.clone();
     let column = |name: &str| header.iter().position(|other| other.eq_ignore_ascii_case(name));
@@ -176,6 +176,9 @@ mod tests {
             refused("name,frame\na,1\nb,x\n"),
             "3:2: expected the number of a source frame, found \"x\""
         );
+        for parted_by in [";", "\t"] {
+            assert_eq!(keys(&table.replace(',', parted_by)), [20, 46], "{parted_by:?}");
+        }
         assert!(refused("koma,drawing\n1,2\n").contains("begins with koma, drawing"));
     }
 

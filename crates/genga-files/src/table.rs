@@ -48,6 +48,17 @@ impl CsvText {
     }
 }
 
+/// Reads a table whose fields are separated by commas, semicolons or tabs, depending on the program that saved it. Rows
+/// may be of different lengths.
+pub(super) fn table_reader(text: &str) -> csv::Reader<&[u8]> {
+    let header = text.lines().next().unwrap_or_default();
+    let count = |byte: &u8| header.bytes().filter(|other| other == byte).count();
+    // On a tie the last one wins: a comma if there is only one column.
+    let delimiter = [b'\t', b';', b','].into_iter().max_by_key(count).unwrap_or(b',');
+    let mut reader = csv::ReaderBuilder::new();
+    reader.delimiter(delimiter).trim(csv::Trim::All).flexible(true).from_reader(text.as_bytes())
+}
+
 /// Formats a number for tables: the shortest form that reads back as the same value, −0 as 0.
 pub(super) fn number(value: f64) -> String {
     (value + 0.0).to_string()
