@@ -167,18 +167,33 @@ impl fmt::Display for Place {
     }
 }
 
-/// Finds the most similar name, to suggest it in place of an unknown one.
-pub fn nearest<'a>(name: &str, names: impl Iterator<Item = &'a str>) -> Option<&'a str> {
-    names.min_by_key(|other| distance(other, name))
+/// Asks whether the most similar name was meant, as the end of a sentence about an unknown one: `; did you mean Hips?`.
+/// Empty if no name is similar.
+pub fn did_you_mean<'a>(name: &str, names: impl Iterator<Item = &'a str>) -> String {
+    nearest(name, names).map_or_else(String::new, |meant| format!("; did you mean {meant}?"))
 }
 
-/// Levenshtein distance: the fewest bytes to change, add or drop between two names.
-pub(crate) fn distance(a: &str, b: &str) -> usize {
+/// Finds the most similar name, if it is similar at all.
+fn nearest<'a>(name: &str, names: impl Iterator<Item = &'a str>) -> Option<&'a str> {
+    names.filter(|other| is_like(name, other)).min_by_key(|other| distance(other, name))
+}
+
+/// Whether one name has the other in it, or a third of its letters differ at most. Two swapped letters count as similar
+/// in short names too.
+fn is_like(name: &str, other: &str) -> bool {
+    const PART: usize = 3;
+    let has = |whole: &str, part: &str| part.len() >= PART && whole.contains(part);
+    let most = (name.len() / 3).max(2).min(name.len().saturating_sub(1));
+    has(name, other) || has(other, name) || distance(name, other) <= most
+}
+
+/// Levenshtein distance: the fewest bytes to change, add or drop between two names; letters are the same in either case.
+fn distance(a: &str, b: &str) -> usize {
     let mut row: Vec<usize> = (0..=b.len()).collect();
     for (i, x) in a.bytes().enumerate() {
         let mut diagonal = std::mem::replace(&mut row[0], i + 1);
         for (j, y) in b.bytes().enumerate() {
-            let change = diagonal + usize::from(x != y);
+            let change = diagonal + usize::from(!x.eq_ignore_ascii_case(&y));
             diagonal = row[j + 1];
             row[j + 1] = change.min(diagonal + 1).min(row[j] + 1);
         }
@@ -223,5 +238,29 @@ impl fmt::Display for Warning {
             write!(f, "{line}:{column}: ")?;
         }
         write!(f, "{} [{}]", self.message, self.code)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_name_is_suggested_only_if_it_is_similar() {
+        let names = ["Hips", "LeftHand", "mixamorig:Spine", "x", "filter.width"];
+        for (name, meant) in [
+            ("Hisp", "Hips"),
+            ("HIPS", "Hips"),
+            ("LeftHnad", "LeftHand"),
+            ("Spine", "mixamorig:Spine"),
+            ("Armature|LeftHand", "LeftHand"),
+            ("width", "filter.width"),
+        ] {
+            let hint = did_you_mean(name, names.into_iter());
+            assert_eq!(hint, format!("; did you mean {meant}?"), "{name}");
+        }
+        for name in ["zzzz", "zz", "z", "", "*Tail*", "RightFoot", "filter.qqqqq"] {
+            assert_eq!(did_you_mean(name, names.into_iter()), "", "{name}");
+        }
     }
 }

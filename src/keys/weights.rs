@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use crate::error::{Error, nearest};
+use crate::error::{Error, did_you_mean};
 use crate::motion::Skeleton;
 
 /// Largest weight. Sums of larger ones over the body may overflow.
@@ -43,7 +43,7 @@ impl JointWeights {
     /// Returns the weight of each joint.
     ///
     /// # Errors
-    /// [`Error::Setting`] if a name or pattern fits no joint, with the nearest name there is; or if no joint has a
+    /// [`Error::Setting`] if a name or pattern fits no joint, with a similar name if there is one; or if no joint has a
     /// weight above 0.
     pub fn resolve(&self, skeleton: &Skeleton) -> Result<Vec<f64>, Error> {
         self.validate()?;
@@ -51,8 +51,8 @@ impl JointWeights {
         if let Some(pattern) =
             self.0.keys().find(|pattern| !names().any(|name| fits(pattern, name)))
         {
-            let hint = nearest(pattern, names()).unwrap_or_default();
-            let message = format!("the clip has no such joint; did you mean {hint}?");
+            let hint = did_you_mean(pattern, names());
+            let message = format!("the clip has no such joint{hint}");
             return Err(Error::setting(knob(pattern), message));
         }
         let weights: Vec<f64> = names().map(|name| self.weight(name)).collect();
@@ -144,7 +144,7 @@ mod tests {
     }
 
     #[test]
-    fn what_fits_no_joint_is_said_with_the_nearest_name() {
+    fn what_fits_no_joint_is_said_with_a_similar_name() {
         let body = skeleton(&["Hips", "LeftHand", "RightHand"]);
         let error = |set: &[(&str, f64)]| weights(set).resolve(&body).unwrap_err().to_string();
         let said = error(&[("LeftHnad", 2.0)]);

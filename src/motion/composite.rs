@@ -11,7 +11,7 @@ use std::borrow::Cow;
 use std::ops::Deref;
 use std::sync::Arc;
 
-use crate::error::{Error, nearest};
+use crate::error::{Error, did_you_mean};
 use crate::motion::{Channel, Clip, Skeleton};
 use crate::sheet::{Drawing, Exposure, Feet, Layer, RootMotion, Sheet, Source};
 use crate::time::Clock;
@@ -201,10 +201,9 @@ pub fn layer_of(skeleton: &Skeleton, sheet: &Sheet) -> Result<Vec<usize>, Error>
         for name in &layer.joints {
             let Some(joint) = skeleton.find(name) else {
                 let names = skeleton.joints.iter().map(|joint| joint.name.as_str());
-                let (layer, hint) = (&layer.name, nearest(name, names).unwrap_or_default());
-                return Err(Error::sheet(format!(
-                    "layer {layer}: the clip has no joint {name}; did you mean {hint}?"
-                )));
+                let (layer, hint) = (&layer.name, did_you_mean(name, names));
+                let message = format!("layer {layer}: the clip has no joint {name}{hint}");
+                return Err(Error::sheet(message));
             };
             if !layer.exposures.is_empty() {
                 layer_of[joint.0] = at;

@@ -1,6 +1,6 @@
 //! Every knob of the recipe by name.
 
-use crate::error::{Error, nearest};
+use crate::error::{Error, did_you_mean};
 use crate::exaggerate::Exaggerate;
 use crate::keys::{ActionFinder, Choose};
 use crate::knob::{Knob, Who};
@@ -60,7 +60,7 @@ impl Knob {
     /// Finds the knob called `name`.
     ///
     /// # Errors
-    /// [`Error::Setting`] with the nearest name when there is none.
+    /// [`Error::Setting`] with a similar name when there is none.
     pub fn find(name: &str) -> Result<&'static Self, Error> {
         KNOBS.iter().find(|knob| knob.name == name).ok_or_else(|| unknown(name))
     }
@@ -71,7 +71,7 @@ impl Knob {
     }
 }
 
-/// Returns the error for an unknown setting, with the nearest name as a hint.
+/// Returns the error for an unknown setting, with a similar name as a hint.
 pub(super) fn unknown(name: &str) -> Error {
     // `keys.weights` is a table of weights.
     if name.starts_with("keys.weight") {
@@ -79,10 +79,9 @@ pub(super) fn unknown(name: &str) -> Error {
             "there is no such setting; how much a joint counts is set by keys.weights.JOINT=2";
         return Error::setting(name, message);
     }
-    let hint = nearest(name, KNOBS.iter().map(|knob| knob.name)).unwrap_or_default();
-    // A name that has hardly a letter of it is no help.
-    Error::setting(name, match hint.contains(name) || crate::error::distance(name, hint) * 2 <= name.len() {
-        true => format!("there is no such setting; did you mean {hint}?"),
-        false => "there is no such setting of the method; `genga run --help` lists them and the options".into(),
+    let hint = did_you_mean(name, KNOBS.iter().map(|knob| knob.name));
+    Error::setting(name, match hint.is_empty() {
+        true => "there is no such setting of the method; `genga run --help` lists them and the options".into(),
+        false => format!("there is no such setting{hint}"),
     })
 }

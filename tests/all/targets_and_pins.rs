@@ -616,10 +616,7 @@ fn wrong_joint_weights_are_refused_with_the_nearest_name() {
             "--recipe w.toml",
             "w.toml:2:12: keys.weights.LeftHand: expected a number, 0 (no say) or more",
         ),
-        (
-            "--set keys.weights.*Tail*=2",
-            "keys.weights.*Tail*: the clip has no such joint; did you mean ",
-        ),
+        ("--set keys.weights.*Tail*=2", "keys.weights.*Tail*: the clip has no such joint\n"),
         (
             "--set keys.weights.Hips=1e308",
             "keys.weights.Hips: expected a number, 0 (no say) or more, at most 1000000; 1 is usual",

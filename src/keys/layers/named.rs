@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::error::{Error, nearest};
+use crate::error::{Error, did_you_mean};
 use crate::keys::layers::LayerJoints;
 use crate::keys::weights::fits;
 use crate::motion::{JointId, Skeleton};
@@ -84,8 +84,8 @@ fn fitting(pattern: &str, layer: &NamedLayer, skeleton: &Skeleton) -> Result<Vec
     let found: Vec<usize> =
         (0..skeleton.len()).filter(|joint| fits(pattern, &skeleton.joints[*joint].name)).collect();
     if found.is_empty() {
-        let hint = nearest(pattern, names()).unwrap_or_default();
-        let message = format!("the clip has no joint {pattern}; did you mean {hint}?");
+        let hint = did_you_mean(pattern, names());
+        let message = format!("the clip has no joint {pattern}{hint}");
         return Err(Error::setting(knob(&layer.name), message));
     }
     Ok(found)

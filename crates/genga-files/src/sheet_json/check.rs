@@ -1,7 +1,7 @@
 //! Validity checks of a sheet, run both when it is written and when it is read.
 
 use super::{MadeOf, SheetFile};
-use genga::error::{Error, nearest};
+use genga::error::{Error, did_you_mean};
 use genga::recipe::Knob;
 use genga::sheet::{Repeat, Source, Why};
 
@@ -65,8 +65,7 @@ pub(super) fn joints(joints: &[String], clip: &MadeOf) -> Result<(), String> {
     match joints.iter().find(|joint| !names().any(|name| name == **joint)) {
         None => Ok(()),
         Some(joint) => {
-            let hint = nearest(joint, names()).unwrap_or_default();
-            Err(format!("the clip has no joint {joint}; did you mean {hint}?"))
+            Err(format!("the clip has no joint {joint}{}", did_you_mean(joint, names())))
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Chooses which take of a file to read.
 
-use genga::error::{Error, Warning, nearest};
+use genga::error::{Error, Warning, did_you_mean};
 
 /// Warning that a file has several takes and the user named none.
 pub const TAKES: &str = "W_TAKES";
@@ -67,9 +67,8 @@ pub(super) fn check(asked: Option<&str>, takes: &[Take]) -> Result<(), Error> {
     let message = match takes {
         [] => format!("there is no take {name:?}: the file has one motion, without a name"),
         takes => {
-            let near = nearest(name, takes.iter().map(|take| take.name.as_str()));
-            let near = near.filter(|_| takes.len() > 1);
-            let tip = near.map(|near| format!("; did you mean {near}?")).unwrap_or_default();
+            let others = takes.iter().filter(|_| takes.len() > 1);
+            let tip = did_you_mean(name, others.map(|take| take.name.as_str()));
             format!("there is no take {name:?}; there is {}{tip}", listed(takes))
         }
     };
@@ -107,6 +106,8 @@ mod tests {
         assert_eq!(choose(None, &[]).unwrap(), None);
         let error = choose(Some("Rum"), &all).unwrap_err().to_string();
         assert!(error.ends_with("there is Bind, Walk, Run; did you mean Run?"), "{error}");
+        let error = choose(Some("Pitching"), &all).unwrap_err().to_string();
+        assert!(error.ends_with("there is Bind, Walk, Run"), "{error}");
     }
 
     #[test]
