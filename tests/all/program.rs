@@ -285,6 +285,10 @@ fn omit_prints_a_row_of_the_second_papers_table_1() {
     assert_eq!(column(&read(&place.path("t.csv")), "n_hf"), ["30"]);
     assert!(place.path("o.bvh").exists());
     place.refused(2, &format!("{omit} --table --out -"));
+    let table = place.done("omit data/kick.bvh data/swing.bvh --table");
+    assert_eq!(column(&table, "clip"), ["kick", "swing"], "{table}");
+    assert_eq!(column(&table, "n_io"), ["4", "4"], "{table}");
+    place.refused(2, "omit data/kick.bvh data/swing.bvh --table --out o.bvh");
 }
 
 #[test]

@@ -66,7 +66,7 @@ pub use manifest::{ClipMark, Manifest};
 pub use marked::{pins_from_sheet, pins_from_table};
 pub use mp4::Mp4;
 pub use number_table::numbers_csv;
-pub use omission_table::omission_csv;
+pub use omission_table::{OmissionRow, omission_csv};
 pub use output_formats::{Attempt, FORMATS, Format};
 pub use pictures::{bars, poses};
 pub use reference_keys::reference_keys;

@@ -1,11 +1,11 @@
 //! `genga omit`: applies the second paper's omission alone, to the clip at 24 drawings a second.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 
 use crate::camera_args::{self, SeenArgs};
-use crate::clip::ClipArgs;
+use crate::clip::Part;
 use crate::console::{Words, counted};
 use crate::failure::Failure;
 use crate::{files, paths};
@@ -14,12 +14,16 @@ use genga::motion::Screen;
 use genga::sheet::Sheet;
 use genga::time::KOMA_RATE;
 use genga::timing::{Amount, Omission, OmissionReport, Omitted, Order, Stills};
+use genga_files::OmissionRow;
 use genga_plot::SsdPlot;
 
 #[derive(Debug, Args)]
 pub(super) struct OmitArgs {
+    /// Motion files; - is stdin. Of several there is only the table.
+    #[arg(value_name = "CLIP", required = true)]
+    clips: Vec<PathBuf>,
     #[command(flatten)]
-    clip: ClipArgs,
+    part: Part,
     #[command(flatten)]
     seen: SeenArgs,
     /// Number of the fastest drawings to leave out: a count (4) or a share of the koma (4%). The second
@@ -45,7 +49,7 @@ pub(super) struct OmitArgs {
     /// Limited motion as a BVH file at 24 frames per second; - is stdout.
     #[arg(long, short, value_name = "FILE.bvh", required_unless_present_any = ["table", "sheet", "plot"])]
     out: Option<PathBuf>,
-    /// Print a row of the second paper's Table 1 as CSV, or write it to a file (--table=FILE.csv): frames at 24 per
+    /// Print a row of the second paper's Table 1 for each clip as CSV, or write them to a file (--table=FILE.csv): frames at 24 per
     /// second, left-out ones (N_io), held ones (N_hf), and the time in milliseconds, which differs from run to run.
     #[arg(long, value_name = "FILE.csv", num_args = 0..=1, require_equals = true, default_missing_value = "-")]
     table: Option<PathBuf>,
@@ -58,17 +62,47 @@ pub(super) struct OmitArgs {
 }
 
 pub(super) fn run(args: &OmitArgs, words: &Words) -> Result<(), Failure> {
-    let targets = || args.sheet.iter().chain(&args.plot).chain(&args.out).chain(&args.table);
-    let sources = [("motion", Some(&*args.clip.path)), ("camera", camera_args::file(&args.seen))];
+    check_files(args)?;
+    let mut rows = Vec::with_capacity(args.clips.len());
+    for (name, path) in paths::names(&args.clips).into_iter().zip(&args.clips) {
+        if args.clips.len() > 1 {
+            words.say(format_args!("clip        動き       {name}"));
+        }
+        rows.push(one(args, (name, path), words)?);
+    }
+    match &args.table {
+        Some(path) => files::write(path, genga_files::omission_csv(&rows)?.as_bytes()),
+        None => Ok(()),
+    }
+}
+
+/// Refuses to overwrite an input, and to write one file of several clips.
+fn check_files(args: &OmitArgs) -> Result<(), Failure> {
+    let of_one = || args.sheet.iter().chain(&args.plot).chain(&args.out);
+    if args.clips.len() > 1 && of_one().next().is_some() {
+        let message = "of several clips there is only --table; name one clip for other files";
+        return Err(Failure::AskedWrongly(message.into()));
+    }
+    let targets = || of_one().chain(&args.table);
+    let clips = args.clips.iter().map(|clip| ("motion", Some(&**clip)));
+    let sources: Vec<_> = clips.chain([("camera", camera_args::file(&args.seen))]).collect();
     targets().try_for_each(|target| paths::spare(&sources, target))?;
     paths::check_picture("plot", args.plot.as_ref())?;
-    paths::distinct(targets())?;
-    let source = args.clip.read()?;
+    paths::distinct(targets())
+}
+
+/// Applies the omission to a clip, and writes its own files. Returns its row of the table.
+fn one(
+    args: &OmitArgs,
+    (name, path): (String, &Path),
+    words: &Words,
+) -> Result<OmissionRow, Failure> {
+    let source = args.part.read(path)?;
     let (seen_from, notes) = camera_args::asked(&args.seen, &source.clip)?;
     let seen_from = seen_from.unwrap_or_default();
     source.notes.iter().chain(&notes).for_each(|warning| words.warn(warning));
     let clip = source.clip;
-    args.clip.budget().check(&clip, KOMA_RATE).map_err(files::fault_of(&args.clip.path))?;
+    args.part.budget().check(&clip, KOMA_RATE).map_err(files::fault_of(path))?;
     let koma = clip.rate().koma_from_frames(clip.len(), KOMA_RATE);
     let ones = Sheet::on_ones(clip.clock(KOMA_RATE), koma);
     let started = std::time::Instant::now();
@@ -76,7 +110,7 @@ pub(super) fn run(args: &OmitArgs, words: &Words) -> Result<(), Failure> {
         let stills = Stills::on(&clip, &ones.layers[0], &Screen::new(seen_from, &clip));
         omission(args).apply(&ones.layers[0], &stills, 1)?
     };
-    let took = started.elapsed();
+    let seconds = started.elapsed().as_secs_f64();
     let sheet = Sheet::new(ones.clock, vec![layer]);
     let motion = genga_files::limited_bvh(&clip, &sheet)?;
     if let Some(path) = &args.sheet {
@@ -86,19 +120,15 @@ pub(super) fn run(args: &OmitArgs, words: &Words) -> Result<(), Failure> {
         let plot = SsdPlot { seen_from, ..SsdPlot::default() };
         files::write_picture(path, &plot.draw(&clip, &ones, &sheet)?, words)?;
     }
-    if let Some(path) = &args.table {
-        let name = paths::stem(&args.clip.path);
-        let row = genga_files::omission_csv(&name, koma, &report, took.as_secs_f64())?;
-        files::write(path, row.as_bytes())?;
-    }
     if let Some(path) = &args.out {
         files::write(path, motion.as_bytes())?;
     }
     if !seen_from.is_world() {
         words.say(format_args!("seen from   画面       {seen_from}"));
     }
-    summary(words, koma, &sheet, &report, took.as_secs_f64());
-    Ok(())
+    summary(words, koma, &sheet, &report, seconds);
+    let (n_io, n_hf) = (report.naka_nashi.done, report.koma_dori.done);
+    Ok(OmissionRow { clip: name, frames: koma, n_io, n_hf, seconds })
 }
 
 fn omission(args: &OmitArgs) -> Omission {
