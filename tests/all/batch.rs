@@ -133,7 +133,11 @@ fn what_is_finished_is_not_done_again_and_what_changed_is() {
     let sheet = place.path("out/clips/a/kick.bvh/sheet.json");
     let made = |path: &std::path::Path| fs::metadata(path).unwrap().modified().unwrap();
     let before = made(&sheet);
-    code(&place, "batch lib --out out");
+    let said = place.genga("batch lib --out out").stderr;
+    let said = String::from_utf8_lossy(&said);
+    let done = results(&place, "out")["summary.csv"].clone();
+    let done = column(&text(&done), "status").iter().filter(|status| *status == "done").count();
+    assert!(said.contains(&format!("{done} clips done already, not processed again")), "{said}");
     assert_eq!(results(&place, "out"), first);
     assert_eq!(made(&sheet), before, "not written again");
     // Another setting, and another motion in one file.

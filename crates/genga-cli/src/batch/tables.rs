@@ -20,6 +20,8 @@ const FILES: [&str; 3] = ["keys.csv", "times.csv", "summary.csv"];
 #[derive(Debug, Default, PartialEq)]
 pub(crate) struct Count {
     pub(crate) done: usize,
+    /// Clips that were done before the batch began.
+    pub(crate) resumed: usize,
     /// The first failures with their reasons, one a line.
     pub(crate) failed: Vec<String>,
     pub(crate) failures: usize,

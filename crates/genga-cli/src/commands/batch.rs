@@ -153,6 +153,8 @@ struct State {
     pack: Option<Pack>,
     done: usize,
     failed: usize,
+    /// Clips that were done before, among those that are done.
+    resumed: usize,
     /// The error that stops the batch.
     fault: Option<Failure>,
 }
@@ -191,7 +193,7 @@ impl<'a> Batch<'a> {
             is_packed: args.pack,
             fails_fast: args.fail_fast,
             progress: args.progress,
-            state: Mutex::new(State { journal, pack, done: 0, failed: 0, fault: None }),
+            state: Mutex::new(State { journal, pack, done: 0, failed: 0, resumed: 0, fault: None }),
         })
     }
 
@@ -231,6 +233,7 @@ impl<'a> Batch<'a> {
         if let Some(row) =
             before.as_ref().map(|line| self.done(&begun, line)).transpose()?.flatten()
         {
+            self.state().resumed += 1;
             return Ok(row);
         }
         let before = before.map(|line| line.files).unwrap_or_default();
@@ -333,10 +336,11 @@ impl<'a> Batch<'a> {
         let names = || self.own.iter().map(|at| self.items[*at].name.as_str());
         let state = self.state.into_inner().unwrap_or_else(PoisonError::into_inner);
         let journals = [state.journal];
-        let count = match args.shard {
+        let mut count = match args.shard {
             None => tables::write(&args.out, &journals, names())?,
             Some(_) => Count::of(&journals, names())?,
         };
+        count.resumed = state.resumed;
         let of = self.own.len();
         if stop::is_asked() {
             let finished = count.done + count.failures;
@@ -393,7 +397,7 @@ fn join(args: &BatchArgs, words: &Words) -> Result<(), Failure> {
 
 /// Reports the outcome.
 fn end(count: &Count, of: usize, args: &BatchArgs, words: &Words) -> Result<(), Failure> {
-    let Count { done, failed, failures, lacking, lacks, kept, keeps, warned } = count;
+    let Count { done, resumed, failed, failures, lacking, lacks, kept, keeps, warned } = count;
     let out = args.out.display();
     let tables =
         if args.shard.is_none() { "summary.csv keys.csv times.csv" } else { "next --join" };
@@ -401,6 +405,10 @@ fn end(count: &Count, of: usize, args: &BatchArgs, words: &Words) -> Result<(), 
         "batch       一括       {} of {of} done into {out}: {tables}",
         counted(*done, "clip")
     ));
+    if *resumed > 0 {
+        let clips = counted(*resumed, "clip");
+        words.say(format_args!("note        {clips} done already, not processed again"));
+    }
     let listed = |count: usize, clips: &[String]| {
         let more = if count > NAMED { "; …, all in summary.csv" } else { "" };
         format!("{}{more}", clips.join("; "))
