@@ -164,7 +164,7 @@ impl Search {
 fn check(targets: &[Target], recipe: &Recipe) -> Result<(), Error> {
     if let ([first, ..], true) = (targets, recipe.layers != Layers::Body) {
         let message = "is asked of the whole body as one layer; run without layers first, and then with them and the \
-                       settings that it finds, as in --set keys.min_price=9";
+                       settings that it finds, such as keys.min_price=9";
         return Err(Error::setting(first.name(), message));
     }
     for (at, target) in targets.iter().enumerate() {
@@ -187,7 +187,7 @@ fn check(targets: &[Target], recipe: &Recipe) -> Result<(), Error> {
     }
     let names: Vec<_> = targets.iter().map(Target::name).collect();
     if names.contains(&"keys") && names.contains(&"max-error") {
-        let message = "cannot be asked for together with --keys, as each says how many keys there are; ask for \
+        let message = "cannot be asked for together with a number of keys, as each says how many keys there are; ask for \
                        one of them";
         return Err(Error::setting("max-error", message));
     }

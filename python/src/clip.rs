@@ -19,7 +19,7 @@ use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyBytes, PyDict, PyType};
 
 use crate::arrays::{self, Arrays, Places};
-use crate::error::{asked_wrongly, raised, raised_of};
+use crate::error::{asked_wrongly, in_python, raised, raised_of};
 use crate::pickle::{Head, Reduced};
 use crate::work;
 
@@ -50,7 +50,8 @@ type Told = (String, String, Option<(usize, usize)>);
 impl Clip {
     /// Wraps the motion of a file.
     pub fn new(motion: Arc<Motion>, file: String, warnings: Vec<Warning>) -> Self {
-        let told = |Warning { code, message, place }| (String::from(code), message, place);
+        let told =
+            |Warning { code, message, place }| (String::from(code), in_python(&message), place);
         Self::with_told(motion, file, warnings.into_iter().map(told).collect())
     }
 
@@ -71,7 +72,7 @@ impl Clip {
         stem.map_or("cut".into(), |stem| stem.to_string_lossy().into_owned())
     }
 
-    /// The warnings as the program writes them.
+    /// The warnings as the program writes them, with arguments of `read` for its options.
     pub fn notes(&self) -> Vec<String> {
         let of_one = |(code, message, place): &Told| {
             let place = place.map(|(line, column)| format!("{line}:{column}: "));

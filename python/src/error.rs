@@ -53,8 +53,13 @@ pub fn raised_of(py: Python<'_>, error: genga::Error, file: Option<&Path>) -> Py
 }
 
 /// Replaces options of the program that are arguments of `read`.
-fn in_python(message: &str) -> String {
-    let message = message.replace("--repair", "repair=True");
+pub fn in_python(message: &str) -> String {
+    let argument = |name: &str| name.replace('-', "_");
+    let message = ["repair", "keep-lead-in", "keep-glitches"]
+        .iter()
+        .fold(message.to_owned(), |message, name| {
+            message.replace(&format!("--{name}"), &format!("{}=True", argument(name)))
+        });
     ["fps", "root", "take", "trim"]
         .iter()
         .fold(message, |message, name| message.replace(&format!("--{name} "), &format!("{name} ")))

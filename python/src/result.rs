@@ -18,7 +18,7 @@ use pyo3::types::{PyBytes, PyDict, PyType};
 
 use crate::clip::{Clip, taken};
 use crate::corrections::Corrections;
-use crate::error::{raised, warned};
+use crate::error::{in_python, raised, warned};
 use crate::files::{Files, Handed};
 use crate::pickle::Reduced;
 use crate::recipe::Recipe;
@@ -324,7 +324,8 @@ impl Result {
         let short: Vec<String> = short.map(ToString::to_string).collect();
         let edits = self.settings.edits.clone();
         let report = self.look(py, move |breakdown| {
-            notes.extend(Description::notes(&motion).iter().map(ToString::to_string));
+            let of_body = Description::notes(&motion);
+            notes.extend(of_body.iter().map(|note| in_python(&note.to_string())));
             notes.extend(run_notes::of_cycle(&motion, is_loop));
             notes.extend(short);
             notes.extend(run_notes::of_corrections(&edits, breakdown));

@@ -254,7 +254,9 @@ def test_the_notes_of_a_report_are_those_of_the_program(path, keys, corrections,
     told = json.loads((tmp_path / "program" / "report.json").read_text(encoding="utf-8"))
     own = dict(moves=[(3, 33)], forbid=[4], holds=[(4, 9)]) if corrections else {}
     result = genga.run(path, targets={"keys": keys}, **own)
-    assert result.report["notes"] == told["notes"] and says in " ".join(told["notes"])
+    notes = [note.replace("--keep-lead-in", "keep_lead_in=True") for note in told["notes"]]
+    assert result.report["notes"] == notes and says in " ".join(notes)
+    assert not any("--keep" in note or "--pin" in note or "--hold" in note for note in result.report["notes"])
     assert pickle.loads(pickle.dumps(result)).report == result.report
 
 

@@ -99,7 +99,7 @@ impl Cycle {
     /// Returns the note that a clip can be repeated; `None` if its last pose is not the first.
     pub fn note(clip: &Clip) -> Option<Warning> {
         Self::of_clip(clip).filter(Self::is_closed)?;
-        let message = "the last pose is the first: --loop makes a sheet that repeats";
+        let message = "the last pose is the first: the setting loop makes a sheet that repeats";
         Some(Warning::new(IS_CYCLE, message))
     }
 

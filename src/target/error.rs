@@ -112,10 +112,9 @@ fn too_far(recipe: &Recipe, edits: &Edits, worst: Frame) -> Shortfall {
             ),
         }
     };
-    let (way, helps) = if edits.forbidden.contains(&Forbidden::one(worst)) {
-        (", which is forbidden".into(), "、そこは禁止".into())
-    } else {
-        (format!(": --pin {worst} helps"), format!("、--pin {worst} で減る"))
+    let (way, helps) = match edits.forbidden.contains(&Forbidden::one(worst)) {
+        true => (", which is forbidden", "、そこは禁止"),
+        false => (": a pin there helps", "、そこを固定すると減る"),
     };
     Shortfall::new(
         format!("{why}; the worst is near frame {worst}{way}"),

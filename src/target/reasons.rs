@@ -35,11 +35,11 @@ impl fmt::Display for Shortfall {
 pub(super) fn settled(edits: &Edits) -> Option<Shortfall> {
     match edits {
         _ if edits.only_pins => Some(Shortfall::new(
-            "only_pins wants no keys but pins and moved ones; --only-pins=false lets others be found",
-            "only_pins では固定と移動した原画だけが残る。--only-pins=false なら他も選ばれる",
+            "only_pins wants no keys but pins and moved ones; without that others are found",
+            "only_pins では固定と移動した原画だけが残る。解除すると他も選ばれる",
         )),
         _ if edits.freeze() => Some(Shortfall::new(
-            "the keys are frozen; without --freeze others are found",
+            "the keys are frozen; without that others are found",
             "原画は凍結中。凍結を解くと他も選ばれる",
         )),
         _ => None,

@@ -149,7 +149,7 @@ fn a_reason_in_japanese_says_the_same_as_in_english() {
         "{most}"
     );
     let near = said(&Edits::default(), Target::MaxError(0.001));
-    assert!(near.contains("92コマ中") && near.contains("--pin"), "{near}");
+    assert!(near.contains("92コマ中") && near.contains("そこを固定すると減る"), "{near}");
 }
 
 #[test]
@@ -168,7 +168,7 @@ fn the_frame_that_is_furthest_off_may_be_forbidden() {
         "{free}"
     );
     let worst_of = |said: &str| {
-        let worst = said.split("--pin ").nth(1).unwrap().strip_suffix(" helps");
+        let worst = said.split("near frame ").nth(1).unwrap().strip_suffix(": a pin there helps");
         worst.unwrap().to_owned()
     };
     let worst = worst_of(&free);
@@ -298,7 +298,10 @@ fn what_can_never_be_met_is_refused() {
         assert!(said.starts_with("max-error: must be above 0, in % of body height"), "{said}");
     }
     let said = error(&[Target::Keys(3), Target::MaxError(4.0)]);
-    assert!(said.starts_with("max-error: cannot be asked for together with --keys"), "{said}");
+    assert!(
+        said.starts_with("max-error: cannot be asked for together with a number of keys"),
+        "{said}"
+    );
     let said = error(&[Target::Keys(3), Target::Keys(4)]);
     assert_eq!(said, "keys: is asked for twice");
 }

@@ -89,7 +89,7 @@ mod program {
     fn a_run_says_that_a_clip_can_be_repeated_and_changes_nothing_else() {
         let place = place();
         let said = |args: &str| text(&place.genga(args).stderr);
-        let hint = "the last pose is the first: --loop makes a sheet that repeats";
+        let hint = "the last pose is the first: the setting loop makes a sheet that repeats";
         assert!(said("run tennis.bvh --out plain").contains(&format!("{hint} [W_CYCLE]")));
         assert!(!said("run kick.bvh --out kick").contains(hint));
         let looped = said("run tennis.bvh --loop --out looped");

@@ -321,7 +321,7 @@ fn a_move_that_finds_nothing_is_said() {
     let forbidden = "--forbid 30..36 --move 3:33";
     let output = place.genga(&format!("run data/kick.bvh --out a {forbidden}"));
     let said = text(&output.stderr);
-    let note = "no key is found at frame 3 (the nearest is at 10), so none was moved to 33; --pin 33 makes one there";
+    let note = "no key is found at frame 3 (the nearest is at 10), so none was moved to 33; a pin at 33 makes one there";
     assert!(output.status.success() && said.contains(note), "{said}");
     assert_eq!(report(&place, "a")["notes"], serde_json::json!([note]));
     assert!(text(&place.genga(&format!("keys data/kick.bvh {forbidden}")).stderr).contains(note));

@@ -54,7 +54,7 @@ fn unmoved_one(moved: &Move, layer: Option<&str>, keys: &[Key]) -> String {
     };
     let layer = layer.map_or_else(String::new, |name| format!("{name}/"));
     format!(
-        "no key is found at frame {layer}{from}{nearest}, so none was moved to {to}; --pin {layer}{to} makes one there"
+        "no key is found at frame {layer}{from}{nearest}, so none was moved to {to}; a pin at {layer}{to} makes one there"
     )
 }
 
@@ -87,7 +87,7 @@ fn why_not(is_longer: bool, ends: bool) -> &'static str {
     if is_longer {
         "none is left to follow it, or one would be on screen too briefly; pin what should follow it sooner"
     } else if ends {
-        "it is the last drawing, and the cut ends there; --length makes the cut longer"
+        "it is the last drawing, and the cut ends there; a greater length makes the cut longer"
     } else {
         "the next genga stands there, or none would stay for one koma; move or forbid that genga to hold longer"
     }
@@ -101,10 +101,10 @@ fn unfound(hold: Hold, layers: &[Layer]) -> String {
     let before = drawings.filter(|place| *place <= frame.0 as f64).max_by(f64::total_cmp);
     let shown = before.map_or_else(String::new, |place| {
         let place = place.round();
-        format!("that of frame {place} is on screen: --hold {place}:{koma} holds it; ")
+        format!("that of frame {place} is on screen: a hold at {place} holds it; ")
     });
     format!(
-        "no drawing is within two koma of frame {frame}, so none stays for {koma} koma; {shown}--pin {frame} makes one \
+        "no drawing is within two koma of frame {frame}, so none stays for {koma} koma; {shown}a pin at {frame} makes one \
          there"
     )
 }
