@@ -24,7 +24,7 @@ impl Table {
     }
 
     /// Name of the focused control. `None` if there is none.
-    fn focused(&self) -> Option<String> {
+    pub(crate) fn focused(&self) -> Option<String> {
         let mut own = self.harness.query_all_by(|node| node.is_focused());
         own.find_map(|node| node.accesskit_node().label())
     }

@@ -268,6 +268,19 @@ fn an_export_that_is_stopped_leaves_nothing() {
 }
 
 #[test]
+fn an_export_without_a_card_says_what_it_lacks() {
+    let mut table = Table::with_kick();
+    table.harness.get_by_label("Export").click();
+    table.harness.run();
+    let says = "No card is chosen";
+    assert!(table.harness.query_by_label_contains(says).is_some());
+    assert_eq!(table.focused(), None, "no card looks chosen");
+    table.harness.get_by_label("Clip Studio").click();
+    table.harness.run();
+    assert!(table.harness.query_by_label_contains(says).is_none());
+}
+
+#[test]
 fn the_work_goes_on_while_results_are_written() {
     let mut table = Table::with_kick();
     let hold = Arc::clone(&table.desk);

@@ -149,10 +149,13 @@ fn a_double_click_takes_one_genga_away() {
 fn a_cross_on_the_strip_says_where_no_genga_may_stand_and_lifts_the_ban() {
     let mut table = Table::plain_kick();
     let genga = table.genga();
-    table.second_genga();
+    let koma = table.second_genga();
     table.tap(Modifiers::NONE, Key::K);
     assert_eq!(table.edits().forbidden.len(), 1);
-    let cross = table.button_on_strip("Forbidden koma").expect("the ban has a cross");
+    let name = format!("Forbidden koma {} (", koma + 1);
+    let cross = table.button_on_strip(&name).expect("the ban has a cross");
+    let way = cross.center().x - table.on_strip(koma, 0.0).x;
+    assert!((0.0..12.0).contains(&way), "{way} from the genga that went");
     table.click_at(cross.center(), PointerButton::Primary);
     assert!(table.edits().is_empty());
     assert_eq!(table.button_on_strip("Forbidden koma"), None);

@@ -264,3 +264,18 @@ pub(super) fn buttons(
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_genga_that_came_or_moved_has_a_sign_and_its_koma_before() {
+        let shifted = vec![Shifted { from: 9, to: 8 }, Shifted { from: 20, to: 22 }];
+        let changed = Changed { came: vec![4, 30], shifted, ..Changed::default() };
+        let signs = [4, 8, 9, 22].map(|koma| Sign::of(koma, &changed));
+        let wanted =
+            [Some((Sign::Came, 4)), Some((Sign::Earlier, 9)), None, Some((Sign::Later, 20))];
+        assert_eq!(signs, wanted);
+    }
+}
