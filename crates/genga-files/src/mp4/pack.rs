@@ -54,8 +54,8 @@ impl Packer {
         let raw = ["-f", "rawvideo", "-pix_fmt", "rgba", "-video_size", &size, "-framerate", &rate];
         // Common players support no other pixel format.
         let packed = ["-i", "pipe:0", "-pix_fmt", "yuv420p", "-movflags", "+faststart"];
-        // One thread and no version tags, so that the same input gives the same bytes.
-        let same = ["-threads", "1", "-fflags", "+bitexact", "-flags:v", "+bitexact"];
+        // A fixed number of threads and no version tags, so that the same input gives the same bytes on any machine.
+        let same = ["-threads", "2", "-fflags", "+bitexact", "-flags:v", "+bitexact"];
         let words = raw.into_iter().chain(packed).chain(same).map(OsStr::new);
         let args = words.chain([film.path().as_os_str()]);
         let ffmpeg = Ffmpeg::begin(&mp4.ffmpeg, (MADE, true), args)?;
