@@ -1,5 +1,6 @@
 //! Frames at which keys are forbidden.
 
+use std::cmp::Ordering;
 use std::fmt;
 use std::str::FromStr;
 
@@ -93,10 +94,10 @@ impl FromStr for Forbidden {
             text => number(text),
         };
         let range = Self { from: bound(from, 0)?, past: bound(past, usize::MAX)? };
-        if range.from < range.past {
-            Ok(range)
-        } else {
-            Err(format!("\"{text}\" has no frame in it"))
+        match range.from.cmp(&range.past) {
+            Ordering::Less => Ok(range),
+            Ordering::Equal => Err(format!("\"{text}\" has no frame in it")),
+            Ordering::Greater => Err(format!("\"{text}\" ends before it begins")),
         }
     }
 }

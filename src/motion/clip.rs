@@ -260,9 +260,15 @@ impl Clip {
     /// [`Error::Clip`] if a bound lies outside the clip or the range is empty.
     pub fn trimmed(mut self, begin: Frame, end: Frame) -> Result<Self, Error> {
         let (first, past) = (self.first.0, self.first.0 + self.frames);
-        if begin.0 < first || end.0 > past || begin >= end {
+        if begin >= end {
             return Err(Error::clip(format!(
-                "cannot keep frames {begin}..{end}: the clip has frames {first}..{past}"
+                "cannot keep frames {begin}..{end}: the range ends before it begins"
+            )));
+        }
+        if begin.0 < first || end.0 > past {
+            return Err(Error::clip(format!(
+                "cannot keep frames {begin}..{end}: the clip has frames {first} to {}",
+                past - 1
             )));
         }
         let channels = self.skeleton.channels();

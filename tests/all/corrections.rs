@@ -184,7 +184,7 @@ fn the_summary_says_what_each_correction_did() {
             "hold 33: stays for 4 koma",
             "pin 42: genga 7 in place of 41",
             "forbid 50: genga 9 moved from 48 to 47 (--forbid 47..53 leaves none)",
-            "pin 60: genga 11, a genga already",
+            "pin 60: genga 11, a genga already, now on koma 61",
             "move 71:74: genga 12",
         ]
     );

@@ -218,3 +218,22 @@ fn keys_of_another_recipe_are_pinned_where_this_one_lacks_them() {
         assert!(own.iter().all(|frame| genga(&place, "b", "A").contains(frame)), "{said}");
     }
 }
+
+#[test]
+fn a_number_that_was_taken_out_is_named_where_its_genga_comes_back() {
+    let place = Place::new();
+    place.done("run data/kick.bvh --out a");
+    let table = read(&place, "a/keys.csv");
+    let frames = genga(&place, "a", "A");
+    let gone = frames[2];
+    let rows = table.lines().filter(|row| !row.contains(&format!(",{gone},")));
+    let rows: Vec<&str> = rows.collect();
+    assert_eq!(rows.len() + 1, table.lines().count());
+    fs::write(place.path("edited.csv"), rows.join("\n")).unwrap();
+    let said = place.said("run data/kick.bvh --pin-from edited.csv --out b");
+    let named = format!("(frame {gone}); --forbid {gone} takes one away, --only-pins all");
+    assert!(said.contains(&named), "{said}");
+    assert_eq!(genga(&place, "b", "A"), frames);
+    let said = place.said("run data/kick.bvh --pin-from edited.csv --only-pins --out c");
+    assert!(!said.contains("takes one away"), "{said}");
+}

@@ -536,7 +536,7 @@ fn wrong_corrections_are_refused_with_the_way_out() {
         (2, "--pin 12:me@home", "--pin: expected a spacing weight, 0 to below 1, behind the @"),
         (2, "--pin 12@1", "the weight of pinned frame 12 must be at least 0 and below 1"),
         (2, "--pin 92", "pinned frame 92 is not in the clip, which has frames 0 to 91"),
-        (2, "--forbid 9..2", "--forbid: \"9..2\" has no frame in it"),
+        (2, "--forbid 9..2", "--forbid: \"9..2\" ends before it begins"),
         (
             2,
             "--forbid many",
@@ -559,7 +559,7 @@ fn wrong_corrections_are_refused_with_the_way_out() {
         (2, "--say 92..99:a", "the line 92..99 is not in the clip, which has frames 0 to 91"),
         (2, "--say 9..9:a", "the line 9..9 has no frame in it"),
         (2, "--only-pins", "there is no pin: pin a frame"),
-        (2, "--recipe r.toml", "\"9..2\" has no frame in it"),
+        (2, "--recipe r.toml", "\"9..2\" ends before it begins"),
         (2, "--recipe half.toml", "2:13: expected a frame (150) or a range (120..140)"),
         (2, "--recipe m.toml", "missing field `to`"),
         (1, "--pin-from no.csv", "no.csv: line 1: there is no column source_frame"),

@@ -8,6 +8,9 @@ use genga::sheet::{Layer, Role, Sheet};
 use genga::time::{Clock, Frame};
 use genga_files::xdts::MarkedKey;
 
+/// Most genga that a note names.
+const NAMED: usize = 4;
+
 /// The marked keys of a column, and what became of them.
 pub(super) struct MarkedKeys {
     file: PathBuf,
@@ -17,6 +20,8 @@ pub(super) struct MarkedKeys {
     notes: Vec<String>,
     /// Whether they are numbers on a timesheet. Their names are those numbers, and the ends of the clip have one too.
     is_timesheet: bool,
+    /// Frames of all of them.
+    frames: Vec<Frame>,
     /// Keys that are no pins.
     open: Vec<MarkedKey>,
     pinned: usize,
@@ -35,13 +40,18 @@ impl MarkedKeys {
                 open.push(key);
             }
         }
-        Self { file, column, notes: vec![], is_timesheet: true, open, pinned: 0, gave_way: 0 }
+        Self::new((file, column), open, true)
     }
 
     /// Takes the keys of a table or a sheet.
     pub(super) fn of_table(file: PathBuf, (pins, column): (Vec<Pin>, String)) -> Self {
         let open = pins.into_iter().map(|pin| MarkedKey { pin, koma: None }).collect();
-        Self { file, column, notes: vec![], is_timesheet: false, open, pinned: 0, gave_way: 0 }
+        Self::new((file, column), open, false)
+    }
+
+    fn new((file, column): (PathBuf, String), open: Vec<MarkedKey>, is_timesheet: bool) -> Self {
+        let frames = open.iter().map(|key| key.pin.frame).collect();
+        Self { file, column, notes: vec![], is_timesheet, frames, open, pinned: 0, gave_way: 0 }
     }
 
     /// Sets the notes about the file.
@@ -109,8 +119,41 @@ impl MarkedKeys {
         meant.all(draws)
     }
 
+    /// Names the genga that were found and are not marked: a person may have taken them out of the file.
+    fn unmarked(&self, sheet: &Sheet, layer: Option<&str>) -> Option<String> {
+        let own = match (layer, sheet.layers.as_slice()) {
+            (None, [only]) => only,
+            (None, _) => return None,
+            (Some(name), layers) => layers.iter().find(|own| own.name == name)?,
+        };
+        let found = own.changes().filter_map(|(koma, drawing)| {
+            let drawing = &own.drawings[drawing];
+            let frame = Frame(drawing.source.place().round() as usize);
+            let is_found = drawing.role == Role::Genga && drawing.why.pinned.is_none();
+            let is_marked = self.frames.contains(&frame);
+            (is_found && !is_marked).then_some((sheet.blank.before + koma + 1, frame))
+        });
+        let found: Vec<(usize, Frame)> = found.collect();
+        let (_, frame) = *found.first()?;
+        let mut named: Vec<String> = found
+            .iter()
+            .take(NAMED)
+            .map(|(koma, frame)| format!("koma {koma} (frame {frame})"))
+            .collect();
+        named.extend((found.len() > NAMED).then(|| format!("{} more", found.len() - NAMED)));
+        Some(format!(
+            "not marked there, and genga all the same: {}; --forbid {frame} takes one away, --only-pins all",
+            named.join(", ")
+        ))
+    }
+
     /// Says what became of the keys.
-    pub(super) fn notes(self) -> Vec<String> {
+    pub(super) fn notes(
+        self,
+        sheet: &Sheet,
+        (layer, edits): (Option<&str>, &Edits),
+    ) -> Vec<String> {
+        let unmarked = self.unmarked(sheet, layer).filter(|_| !edits.only_pins);
         let Self { file, column, open, pinned, gave_way, .. } = self;
         let (file, there) = (file.display(), open.len());
         let mut said = vec![match (pinned + gave_way, there) {
@@ -133,6 +176,7 @@ impl MarkedKeys {
                 counted(gave_way, "other")
             ));
         }
+        said.extend(unmarked);
         said.extend(self.notes);
         said
     }

@@ -20,6 +20,7 @@ pub(super) fn of_corrections(edits: &Edits, breakdown: &Breakdown<'_>) -> Vec<St
             own,
             sheet,
             clock: breakdown.clock,
+            before: breakdown.sheet.blank.before,
             layer: if layers.len() > 1 { format!("{}/", own.layer.name) } else { String::new() },
         };
         let of_layer = edits.of_layer(&own.layer.name);
@@ -45,6 +46,8 @@ struct Outcomes<'a> {
     /// Its column of the sheet.
     sheet: &'a Layer,
     clock: Clock,
+    /// Blank koma before the drawings.
+    before: usize,
     /// Prefix of frames, if there are several layers.
     layer: String,
 }
@@ -58,7 +61,13 @@ impl Outcomes<'_> {
         let frame = pin.frame;
         let number = self.number(frame)?;
         let instead = match self.lost_near(frame).join(" and ") {
-            _ if self.is_found(frame) => ", a genga already".to_owned(),
+            // A pin stands on the koma of its own frame, a found genga may stand beside it.
+            _ if self.is_found(frame) => {
+                format!(
+                    ", a genga already, now on koma {}",
+                    self.before + self.clock.koma_from_frame(frame) + 1
+                )
+            }
             none if none.is_empty() => none,
             frames => format!(" in place of {frames}"),
         };

@@ -196,7 +196,7 @@ impl PlanArgs {
             met = self.meet(engine, recipe, edits)?;
             sheet = self.sheet(engine, &met.recipe, edits)?;
         }
-        marked.notes().into_iter().for_each(note);
+        marked.notes(&sheet, (layer.as_deref(), edits)).into_iter().for_each(note);
         Ok(met)
     }
 

@@ -11,7 +11,7 @@ use crate::{
     Cut, Drawings, Rows, Sink, after_effects, columns_csv, figures, films, keys_bvh, limited_bvh,
     pictures, remap_csv, sheet_csv, sheet_json, sts, vrma, xdts, xsheet,
 };
-use genga::error::{Error, Warning};
+use genga::error::{Error, Warning, did_you_mean};
 use genga::sheet::{Layer, Sheet};
 use genga_plot::SideBySide;
 
@@ -396,7 +396,13 @@ impl Format {
                         "this genga was built without it, that is, without the feature `{feature}`"
                     )
                 }
-                None => format!("there is no such format; there are {}", known.join(", ")),
+                None => {
+                    let hint = match did_you_mean(name, known.iter().copied()) {
+                        none if none.is_empty() => ";".to_owned(),
+                        hint => hint,
+                    };
+                    format!("there is no such format{hint} there are {}", known.join(", "))
+                }
             };
             Error::setting(name, message)
         })
@@ -560,7 +566,9 @@ mod tests {
     fn an_unknown_format_lists_the_known_ones() {
         let error = Format::find("xdst").unwrap_err().to_string();
         assert!(
-            error.starts_with("xdst: there is no such format; there are json, csv,"),
+            error.starts_with(
+                "xdst: there is no such format; did you mean xdts? there are json, csv,"
+            ),
             "{error}"
         );
         for format in FORMATS {

@@ -54,6 +54,9 @@ struct Take<'a> {
     koma_rate: f64,
     koma: usize,
     length: String,
+    /// Koma of the cut before the first one here.
+    #[serde(skip_serializing_if = "is_zero")]
+    before: usize,
     height: f64,
     points: usize,
     figure: PageFigure,
@@ -67,6 +70,11 @@ struct Take<'a> {
     /// First koma and number of koma of each passage in which two sheets show different drawings.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     differences: Vec<(usize, usize)>,
+}
+
+/// Whether nothing is before the first koma.
+fn is_zero(before: &usize) -> bool {
+    *before == 0
 }
 
 /// A sheet of the page.
@@ -165,6 +173,7 @@ impl FlipBook {
             koma_rate: clock.koma_rate,
             koma,
             length: seconds_and_koma(koma, clock.koma_rate),
+            before: shown.koma_before(),
             height: STEPS,
             points: browser::points(&figure, &source[0]).len(),
             figure: PageFigure::new(&figure, &source[0], steps.unit),

@@ -85,7 +85,7 @@ impl HeatMap {
         let spreads = shown(grids, self.show, self.per_second)?;
         let values: Vec<f64> = spreads.iter().map(|spread| spread.median).collect();
         let title = headline(self.show, self.per_second);
-        let map = Map::new(grid, &values, &title);
+        let map = Map::new(grid, &values, (&title, plateaus.is_some()));
         let (width, height) = map.size();
         let height =
             height + if plateaus.is_some() { LEGEND - BOTTOM + style::MARGIN } else { 0.0 };
@@ -104,6 +104,19 @@ impl HeatMap {
     }
 }
 
+/// Words of the legend: of both plateaus and of the cell of the recipe.
+const LEGEND_WORDS: [&str; 3] =
+    ["same keys of the layer 原画が同じ", "nearly the same ほぼ同じ", "the recipe 現在のレシピ"];
+/// Width of a mark of the legend and the gap behind its words, in px.
+const MARK: f64 = 25.0;
+const BETWEEN: f64 = 22.0;
+
+/// Width of the whole legend, in px.
+fn legend_width() -> f64 {
+    let words = LEGEND_WORDS.iter().map(|words| style::text_width(words, style::SMALL));
+    words.map(|width| MARK + width + BETWEEN).sum::<f64>() - BETWEEN
+}
+
 /// The layout of the cells.
 struct Map {
     /// Chart whose values are columns from the left and rows from below.
@@ -120,7 +133,7 @@ struct Map {
 }
 
 impl Map {
-    fn new(grid: &Grid, values: &[f64], title: &str) -> Self {
+    fn new(grid: &Grid, values: &[f64], (title, has_legend): (&str, bool)) -> Self {
         let (columns, rows) = (grid.x.len(), grid.rows());
         let px = |all: f64, count: usize, (least, most): (f64, f64)| {
             (all / count as f64).floor().clamp(least, most)
@@ -147,7 +160,7 @@ impl Map {
                 y: chart::Axis::labelled((0.0, rows as f64), beside.unwrap_or_default()).plain(),
             },
             rows,
-            words: words.fold(title, f64::max),
+            words: words.fold(if has_legend { title.max(legend_width()) } else { title }, f64::max),
             cell,
             low: finite().fold(f64::INFINITY, f64::min),
             high: finite().fold(f64::NEG_INFINITY, f64::max),
@@ -211,9 +224,11 @@ impl Map {
         let base = self.plot.to.1 + LEGEND;
         let mut left = style::MARGIN;
         let looks = [(style::GENGA, 2.0), (style::RIGHT, 4.0)];
-        let words = ["same keys of the layer 原画が同じ", "nearly the same ほぼ同じ"];
+        let [same, nearly, recipe] = LEGEND_WORDS;
         // The wider edge lies under the other.
-        for ((plateau, (color, width)), words) in plateaus.iter().zip(looks).zip(words).rev() {
+        for ((plateau, (color, width)), words) in
+            plateaus.iter().zip(looks).zip([same, nearly]).rev()
+        {
             let Some(plateau) = plateau else { continue };
             for (from, to) in self.edge_of(grid, plateau) {
                 canvas.line(from, to, color, width);
@@ -228,13 +243,13 @@ impl Map {
         for place in [place, (left + 9.0, base - 4.0)] {
             canvas.spot(place, radius, style::GENGA);
         }
-        self.legend(canvas, left, base, "the recipe 現在のレシピ");
+        self.legend(canvas, left, base, recipe);
     }
 
     /// Writes the words of the legend beside a mark, and returns the x of the next mark.
     fn legend(&self, canvas: &mut Canvas, left: f64, base: f64, words: &str) -> f64 {
-        canvas.text(words, (left + 25.0, base), Type::new(style::SMALL));
-        left + 25.0 + style::text_width(words, style::SMALL) + 22.0
+        canvas.text(words, (left + MARK, base), Type::new(style::SMALL));
+        left + MARK + style::text_width(words, style::SMALL) + BETWEEN
     }
 
     /// Returns the sides of cells at which the plateau ends.

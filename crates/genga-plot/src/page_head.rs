@@ -4,7 +4,7 @@ use crate::canvas::{Align, Canvas, Type};
 use crate::drawings::seconds_and_koma;
 use crate::legend::{self, Entry};
 use crate::style;
-use genga::sheet::{Layer, Sheet};
+use genga::sheet::{Blank, Layer, Sheet};
 
 /// Height of the head, in px.
 pub(super) const HEAD: f64 = 72.0;
@@ -53,11 +53,20 @@ pub(super) fn facts(sheet: &Sheet, layer: &Layer) -> String {
     let genga = layer.genga();
     let drawings = layer.shown().count();
     let plural = if drawings == 1 { "" } else { "s" };
-    let begin = match sheet.blank.before {
-        0 => String::new(),
-        before => format!(" · koma 1 here is koma {} of the cut", before + 1),
-    };
-    format!(
-        "尺 {length} ({koma} koma) · genga 原画 {genga} · {drawings} drawing{plural} 動画{begin}"
+    with_first_koma(
+        &format!(
+            "尺 {length} ({koma} koma) · genga 原画 {genga} · {drawings} drawing{plural} 動画"
+        ),
+        sheet.blank,
     )
+}
+
+/// Adds to words of a head on which koma of the cut the drawings begin, if that is not the first.
+pub(super) fn with_first_koma(words: &str, blank: Blank) -> String {
+    if blank.before == 0 {
+        return words.to_owned();
+    }
+    let begin = format!("koma 1 here is koma {} of the cut", blank.before + 1);
+    let words = [words, &begin].into_iter().filter(|words| !words.is_empty());
+    words.collect::<Vec<_>>().join(" · ")
 }

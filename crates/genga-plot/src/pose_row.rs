@@ -8,6 +8,7 @@ use crate::chart::number;
 use crate::drawings::{ShownDrawing, composed, shown_drawings};
 use crate::figure::{Figure, FigureBody};
 use crate::legend::SIDES;
+use crate::page_head;
 use crate::paper_point::Point;
 use crate::points::{Posing, Showing};
 use crate::stage::{Bounds, Stage, fitting, largest};
@@ -154,6 +155,8 @@ impl PoseRow {
     /// ```
     pub fn draw_kept(&self, clip: &Clip, sheet: &Sheet) -> Result<String, Error> {
         self.validate()?;
+        let named = page_head::with_first_koma(&self.clip, sheet.blank);
+        let titled = Self { clip: named, ..self.clone() };
         let (clip, sheet) = first_round(clip, sheet);
         let (clip, sheet) = (&*clip, &*sheet);
         let composite = composed(clip, sheet)?;
@@ -168,7 +171,7 @@ impl PoseRow {
         let mut showing = Showing::new(&composite, figure.marks());
         let shown = kept.iter().take(self.most);
         let poses: Vec<_> = shown.map(|cell| showing.points(cell.index, cell.koma)).collect();
-        self.row(clip, &figure, &kept.iter().map(label).collect::<Vec<_>>(), &poses)
+        titled.row(clip, &figure, &kept.iter().map(label).collect::<Vec<_>>(), &poses)
     }
 
     /// Draws the row of some poses, which belong to the first of `labels`.

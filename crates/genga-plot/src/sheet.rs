@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 use crate::canvas::{Canvas, Type};
 use crate::chart::robust_top;
 use crate::legend::{CUT, Entry, LEFT_OUT, SPLIT};
+use crate::page_head;
 use crate::paper_point::Point;
 use crate::sheet::fate::row_before;
 use crate::sheet::paper::{Band, LEFT, Paper, badges};
@@ -86,10 +87,9 @@ impl SheetPlot {
         let paper = self.paper(sheet, spaced, ssd);
         let entries = self.entries(spaced.is_some(), paper.is_cut());
         let width = f64::from(self.width);
-        let title =
-            Title {
-                words: "Timesheet タイムシート", clips: &self.clip, legend: &entries, width
-            };
+        let clips = page_head::with_first_koma(&self.clip, sheet.blank);
+        let words = "Timesheet タイムシート";
+        let title = Title { words, clips: &clips, legend: &entries, width };
         let words = title.height() + 14.0 + COUNTS * sheet.layers.len() as f64;
         let lines = paper.koma.div_ceil(paper.in_line).max(1);
         let line = paper.line_height();

@@ -36,6 +36,14 @@ pub enum SideBySide<'a> {
 }
 
 impl<'a> SideBySide<'a> {
+    /// Number of blank koma before a sheet that is shown alone, which a page that plays again and again leaves out.
+    pub(crate) fn koma_before(&self) -> usize {
+        match self {
+            Self::Source(_, sheet) => sheet.blank.before,
+            Self::Versions(_) => 0,
+        }
+    }
+
     /// Puts two sheets side by side.
     ///
     /// # Errors

@@ -100,7 +100,11 @@ impl StudyPlot {
         let width = f64::from(self.width);
         Title { words: &title, clips: &named(clips), legend: &[], width }.draw(&mut canvas);
         let middle = (style::MARGIN + 8.0, 0.5 * (plot.from.1 + plot.to.1));
-        canvas.text_upwards(&format!("{title} ({value})"), middle, Type::new(style::WORDS));
+        // The title says it already where it is longer than the axis.
+        let named = format!("{title} ({value})");
+        let is_short = style::text_width(&named, style::WORDS) <= (plot.to.1 - plot.from.1).abs();
+        let named = if is_short { named } else { value.to_owned() };
+        canvas.text_upwards(&named, middle, Type::new(style::WORDS));
         behind.veils(&mut canvas, &plot, &legend.looks);
         let medians = at.lines(spreads.iter().map(|spread| spread.median).collect());
         plot.draw(&mut canvas, |chart| {

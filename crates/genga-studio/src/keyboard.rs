@@ -129,7 +129,7 @@ pub(super) const BINDINGS: &[Binding] = &[
     key(NONE, Key::X, Command::Other, "switch sheets (A, B)", "シートを切り替え (A/B)"),
     key(NONE, Key::U, Command::Frames, "show frames or koma", "フレーム・コマの切り替え"),
     key(NONE, Key::K, Command::ToggleKey, "pin or forbid a genga here", "ここの原画を固定・禁止"),
-    key(NONE, Key::L, Command::Pin, "pin or unpin the genga here", "ここの原画を固定・解除"),
+    key(NONE, Key::L, Command::Pin, "pin or unpin this koma", "このコマを固定・解除"),
     key(NONE, Key::OpenBracket, Command::Hold(-1), "shorten hold by a koma", "止めを1コマ短く"),
     key(NONE, Key::CloseBracket, Command::Hold(1), "lengthen hold by a koma", "止めを1コマ長く"),
     key(NONE, Key::Comma, Command::Crowd(-0.05), "spread inbetweens from the genga", "詰めを弱く"),

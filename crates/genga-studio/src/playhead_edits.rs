@@ -30,13 +30,13 @@ impl Here<'_> {
                 false => Correction::Forbid(key.clone(), column.place_of(&key)),
                 true => Correction::TakeBack(key),
             },
-            (Command::ToggleKey, _) | (Command::Pin, None) => {
-                Correction::Pin(self.frame(column.clock.place_from_koma(self.at)))
-            }
-            (Command::Pin, Some(key)) => match self.is_set(&key) {
+            (Command::Pin, Some(key)) if self.is_here(&key) => match self.is_set(&key) {
                 false => Correction::PinKey(key),
                 true => Correction::TakeBack(key),
             },
+            (Command::ToggleKey | Command::Pin, _) => {
+                Correction::Pin(self.frame(column.clock.place_from_koma(self.at)))
+            }
             (Command::Nudge(by), Some(key)) => {
                 let way = *by as f64 * column.clock.frames_in_koma();
                 let to = self.frame(key.frame.0 as f64 + way);

@@ -31,8 +31,8 @@ pub(crate) struct Count {
     /// The first clips with files that a person changed, one a line.
     pub(crate) kept: Vec<String>,
     pub(crate) keeps: usize,
-    /// How many finished clips have a warning, by its code.
-    pub(crate) warned: BTreeMap<String, usize>,
+    /// The first finished clips with a warning and how many they are, by its code.
+    pub(crate) warned: BTreeMap<String, (Vec<String>, usize)>,
 }
 
 /// Most failures listed in full.
@@ -153,7 +153,8 @@ impl Count {
         if line.row.is_done() {
             self.done += 1;
             for code in &line.row.warnings {
-                *self.warned.entry(code.clone()).or_default() += 1;
+                let (clips, count) = self.warned.entry(code.clone()).or_default();
+                name(clips, count, line.clip.clone());
             }
             if line.row.lacks_formats() {
                 name(&mut self.lacking, &mut self.lacks, format!("{}: {message}", line.clip));

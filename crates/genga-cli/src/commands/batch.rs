@@ -414,8 +414,11 @@ fn end(count: &Count, of: usize, args: &BatchArgs, words: &Words) -> Result<(), 
         format!("{}{more}", clips.join("; "))
     };
     if !warned.is_empty() {
-        let warned: Vec<String> =
-            warned.iter().map(|(code, clips)| format!("{code} {clips}")).collect();
+        let of_code = |(code, (clips, count)): (&String, &(Vec<String>, usize))| {
+            let more = if *count > clips.len() { ", …" } else { "" };
+            format!("{code} {count} ({}{more})", clips.join(", "))
+        };
+        let warned: Vec<String> = warned.iter().map(of_code).collect();
         words.say(format_args!(
             "note        clips with warnings (--strict refuses damaged ones): {}",
             warned.join(", ")

@@ -10,7 +10,8 @@ const WORDS = {
     "koma-back": "one koma back", "koma-on": "one koma on",
     "drawing-back": "one drawing back", "drawing-on": "one drawing on",
     scrub: "koma", column: "sheet column, click for a koma", stage: "figure, drag to turn",
-    length: (take) => `${take.length} (${take.koma} koma)`, between: " · ",
+    length: (take) => `${take.length} (${take.koma} koma)${
+      take.before ? ` · koma 1 here is koma ${take.before + 1} of the cut` : ""}`, between: " · ",
     counts: (rounds, genga, drawings) => `${rounds > 1 ? `${rounds} rounds, ` : ""}${genga} genga, ${drawings} drawings`,
     different: "different drawings", differ: (koma) => `≠ different drawings on ${koma} koma`, blank: "blank",
     drawing: "drawing",
@@ -30,7 +31,8 @@ const WORDS = {
     genga: "原画", inbetween: "中割り", end: "端", of: "/", play: "再生", stop: "停止",
     "koma-back": "1コマ戻る", "koma-on": "1コマ進む", "drawing-back": "1枚戻る", "drawing-on": "1枚進む",
     scrub: "コマ", column: "シートの列、クリックでそのコマへ", stage: "人物、ドラッグで回す",
-    length: (take) => `尺 ${take.length}（${take.koma}コマ）`, between: "　",
+    length: (take) => `尺 ${take.length}（${take.koma}コマ）${
+      take.before ? `　ここの1コマ目はカットの${take.before + 1}コマ目` : ""}`, between: "　",
     counts: (rounds, genga, drawings) => `${rounds > 1 ? `リピート${rounds}回・` : ""}原画 ${genga}枚・動画 ${drawings}枚`,
     different: "絵が違う", differ: (koma) => `≠ 絵が違うコマ：${koma}`, blank: "空セル",
     drawing: "動画",

@@ -129,8 +129,13 @@ fn ghosts(
         let pose = posing.points(Source::At(source));
         let ink = Inks::One(look.faint.gamma_multiply(0.55), 0.8);
         draw_body(painter, &place.stage(x, &pose).draw(&pose), ink, look);
-        Sign::Gone.draw(painter, layout.slot(x).right_top() + vec2(-8.0, 8.0), look);
+        Sign::Gone.draw(painter, gone_sign(layout, x), look);
     }
+}
+
+/// Place of the sign on the ghost of a genga that went.
+fn gone_sign(layout: &Layout, x: f32) -> Pos2 {
+    layout.slot(x).right_top() + vec2(-8.0, 8.0)
 }
 
 /// The signs on the figures of what the last change did to them, with their places and their koma before, from 0.
@@ -156,14 +161,19 @@ pub(super) fn explain(
     (shown, changed): (&Shown<'_>, Option<&Changed>),
 ) -> Response {
     let Some(at) = response.hover_pos() else { return response };
-    let mut signs = signs(layout, figured, shown, changed).into_iter();
+    let gone = changed.iter().flat_map(|changed| &changed.gone);
+    let gone = gone.map(|own| (Sign::Gone, gone_sign(layout, layout.x(own.koma)), own.koma));
+    let mut signs = signs(layout, figured, shown, changed).into_iter().chain(gone);
     let found = signs.find(|(_, middle, _)| middle.distance(at) <= RADIUS);
     let Some((sign, _, before)) = found else { return response };
+    let koma = before + 1;
     response.on_hover_text_at_pointer(match (sign, shown.words.is_japanese()) {
         (Sign::Came, true) => "この変更でできた原画".to_owned(),
         (Sign::Came, false) => "New by the last change".to_owned(),
-        (_, true) => format!("この変更でコマ{}から移った原画", before + 1),
-        (_, false) => format!("Moved by the last change. It was on koma {}", before + 1),
+        (Sign::Gone, true) => format!("この変更でなくなった、コマ{koma}の原画"),
+        (Sign::Gone, false) => format!("Gone by the last change: the genga on koma {koma}"),
+        (_, true) => format!("この変更でコマ{koma}から移った原画"),
+        (_, false) => format!("Moved by the last change. It was on koma {koma}"),
     })
 }
 
