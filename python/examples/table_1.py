@@ -17,9 +17,9 @@ try:
     from matplotlib import pyplot
 except ImportError:
     sys.exit()
-for m in ("5", "10"):
+for m in (5, 10):
     rows = table["turns.persistence"] == m
-    pyplot.plot(table["filter.width"][rows].astype(float), table["union"][rows], "o-", label=f"M = {m}")
+    pyplot.plot(table["filter.width"][rows], table["union"][rows], "o-", label=f"M = {m}")
 pyplot.xlabel("W, frames")
 pyplot.ylabel("key frames")
 pyplot.legend()

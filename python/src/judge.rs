@@ -25,9 +25,11 @@ use crate::work;
 /// either order, whatever their values), all other settings are the paper's, `Recipe.table_1()`; with any other axes,
 /// and with `filter.width` alone, they are those of `run`, `Recipe()`. A recipe that is given replaces either, and
 /// `settings` are applied to it. Returns a `genga.Study`: a dict of columns with one row per combination, whose
-/// attribute `recipe` is the recipe that was used. Its columns are both settings (text), then one for each of
-/// `measures` (`genga study --help` lists them), by default turns, genga, fills, union and total, or all measures if an
-/// axis is a setting of the sheet (`spacing`, `omission`). With `per_joint` the columns are `joint` and `keys` and the
+/// attribute `recipe` is the recipe that was used. Its columns are both settings, then one for each of `measures`
+/// (`genga study --help` lists them), by default turns, genga, fills, union and total, or all measures if an axis is a
+/// setting of the sheet (`spacing`, `omission`). The column of a setting has numbers if all of its values are plain
+/// numbers, whole ones if all are whole: `table["union"][table["filter.width"] == 10]`. If one has a unit or is a word
+/// (`"0.1s"`, `"4%"`, `"none"`), the column has text, each value as the recipe file writes it. With `per_joint` the columns are `joint` and `keys` and the
 /// rows one per joint. Several clips, or motion files, have a column `clip` first. A setting that is also an axis raises
 /// `genga.Error`.
 #[pyfunction]
@@ -194,11 +196,11 @@ fn cells<'py>(
         let of_clip = Column::words(each().map(|(clip, _)| &*names[clip]));
         made.update(table(py, [("clip", of_clip)])?.as_mapping())?;
     }
-    let of_x = Column::words(each().map(|(_, cell)| &*study.x.values()[cell / of_y]));
-    made.update(table(py, [(study.x.name(), of_x)])?.as_mapping())?;
+    let of_x: Vec<_> = each().map(|(_, cell)| &*study.x.values()[cell / of_y]).collect();
+    made.update(table(py, [(study.x.name(), Column::read(&of_x))])?.as_mapping())?;
     if let Some(y) = &study.y {
-        let of_y = Column::words(each().map(|(_, cell)| &*y.values()[cell % of_y]));
-        made.update(table(py, [(y.name(), of_y)])?.as_mapping())?;
+        let of_y: Vec<_> = each().map(|(_, cell)| &*y.values()[cell % of_y]).collect();
+        made.update(table(py, [(y.name(), Column::read(&of_y))])?.as_mapping())?;
     }
     Ok(made)
 }

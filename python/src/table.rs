@@ -1,5 +1,7 @@
 //! Tables as dicts of NumPy columns, as pandas and polars take them.
 
+use std::str::FromStr;
+
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -30,6 +32,14 @@ impl Column {
         Self::Words(values.into_iter().map(Into::into).collect())
     }
 
+    /// Builds a column of numbers if all words are plain numbers, whole ones if all are whole; else of words.
+    pub fn read(words: &[&str]) -> Self {
+        if let Some(whole) = parsed(words) {
+            return Self::Whole(whole);
+        }
+        parsed(words).map_or_else(|| Self::words(words.iter().copied()), Self::Number)
+    }
+
     fn array<'py>(self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         match self {
             Self::Whole(values) => Ok(PyArray1::from_vec(py, values).into_any()),
@@ -41,6 +51,11 @@ impl Column {
             }
         }
     }
+}
+
+/// Parses all words; `None` if one cannot be parsed.
+fn parsed<T: FromStr>(words: &[&str]) -> Option<Vec<T>> {
+    words.iter().map(|word| word.parse().ok()).collect()
 }
 
 /// Builds a dict of columns, in their order.

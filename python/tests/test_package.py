@@ -487,7 +487,7 @@ def test_a_study_is_the_programs(clip, tmp_path):
         at = header.index(measure)
         assert [float(row[at]) for row in rows] == table[measure].tolist()
     own = genga.study(clip, x=("spacing.on", [1, 2, 3]), measures=["drawings"])
-    assert own["spacing.on"].tolist() == ["1", "2", "3"] and own["drawings"][0] > own["drawings"][2]
+    assert own["spacing.on"].tolist() == [1, 2, 3] and own["drawings"][0] > own["drawings"][2]
 
 
 def test_a_study_counts_what_the_program_counts(clip):
@@ -555,6 +555,24 @@ def test_counts_are_whole_numbers(clip):
     assert [table[measure].dtype.kind for measure in measures] == list("iiiiiff")
     told = genga.run(clip, targets={"keys": 9}).outcomes[0]
     assert [type(told[what]) for what in ("asked", "reached")] == [int, int]
+
+
+def test_an_axis_of_numbers_is_a_column_of_numbers(clip):
+    table = genga.study(clip)
+    assert len(table["union"][table["filter.width"] == 10]) == 2
+    columns = {
+        "10,20": [10, 20],
+        "10,12.5": [10.0, 12.5],
+        "0.10s,0.2s": ["0.1s", "0.2s"],
+        "10,0.2s": ["10", "0.2s"],
+    }
+    for values, wanted in columns.items():
+        made = genga.study(clip, x=("filter.width", values), measures=["genga"])["filter.width"]
+        assert made.tolist() == wanted and made.dtype == np.array(wanted).dtype, values
+    seeds = genga.study([clip, clip], x=("noise", [0, 0.5]), y=("noise.seed", [2**53 + 1]), measures=["genga"])
+    assert seeds["noise"].tolist() == [0, 0.5] * 2 and seeds["noise.seed"].tolist() == [2**53 + 1] * 4
+    gaps = genga.study(clip, x=("keys.per_second", [3, float("inf")]), measures=["genga"])
+    assert gaps["keys.per_second"].tolist() == [3, float("inf")]
 
 
 def test_a_study_per_joint_adds_up_to_the_total(clip):
