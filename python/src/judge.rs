@@ -240,6 +240,7 @@ fn of_joints<'py>(
 
 /// Evaluates a sheet (a `genga.Result`, the dict of `Result.to_json()`, or the text of a `sheet.json`) against its
 /// clip. `reference` are key frames that somebody else chose; a key within `tolerance` koma of one counts as the same.
+/// Those beyond the sheet do not count, with a warning.
 /// Returns nested dicts like the output of `genga eval --json`; the scores against `reference` are in it under `timing`
 /// (`f1`, `precision`, `recall` and more), which is None without `reference`. Errors are in % of body height. Anything
 /// else as a sheet raises `TypeError`.
@@ -260,6 +261,8 @@ pub fn evaluate<'py>(
         let file = sheet_json::read(&text)?;
         let (source, notes) = file.fit((*motion).clone())?;
         let drawn = file.drawn(&source)?.unwrap_or(source);
+        let beyond = reference.as_deref().and_then(|keys| Evaluation::beyond(&drawn, keys));
+        let notes: Vec<_> = notes.iter().map(ToString::to_string).chain(beyond).collect();
         Ok((Evaluation::new(&drawn, &file.sheet, reference.as_deref(), tolerance)?, notes))
     })?;
     let (evaluation, notes) = made.map_err(|error| raised(py, error))?;

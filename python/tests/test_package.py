@@ -654,6 +654,21 @@ def test_evaluation_and_comparison(clip):
     assert set(table["asked"]) >= {6} and np.isnan(table["steady"]).all()
 
 
+@pytest.mark.parametrize("tolerance", [-1, math.nan, math.inf])
+def test_a_tolerance_that_is_no_length_is_refused(tolerance, clip):
+    with pytest.raises(genga.Error, match="tolerance: expected koma, 0 or more"):
+        genga.evaluate(clip, genga.run(clip), reference=[20], tolerance=tolerance)
+
+
+def test_reference_keys_beyond_the_sheet_are_told_as_a_warning(clip):
+    result = genga.run(clip)
+    with pytest.warns(UserWarning, match=r"^1 reference key beyond frames 0 to \d+ of the sheet do not count$"):
+        found = genga.evaluate(clip, result, reference=[20, 46, 5000])
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert genga.evaluate(clip, result, reference=[20, 46]) == found
+
+
 def test_again_is_a_new_run_and_leaves_the_old(clip):
     first = genga.run(clip)
     before = first.to_json()

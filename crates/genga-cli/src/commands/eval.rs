@@ -72,12 +72,8 @@ pub(super) fn run(args: &EvalArgs, words: &Words) -> Result<(), Failure> {
             first.name
         ));
     }
-    let outside = |keys: &Vec<_>| keys.iter().filter(|frame| !clip.contains(**frame)).count();
-    if let Some(count) = reference.as_ref().map(outside).filter(|count| *count > 0) {
-        let keys = counted(count, "reference key");
-        let (first, last) = (clip.first(), clip.last());
-        words.say(format_args!("{keys} beyond frames {first} to {last} of the sheet do not count"));
-    }
+    let beyond = reference.as_deref().and_then(|keys| Evaluation::beyond(clip, keys));
+    beyond.iter().for_each(|note| words.say(note));
     let found = Evaluation::new(clip, &file.sheet, reference.as_deref(), args.tolerance)
         .map_err(&of_sheet)?;
     if let Some(path) = &args.json {

@@ -74,7 +74,7 @@ impl Evaluation {
     ///
     /// # Errors
     /// [`Error::Sheet`] as in [`Sheet::first_layer`], and if a layer has a joint that the clip lacks; [`Error::Clip`]
-    /// for a clip without motion.
+    /// for a clip without motion; [`Error::Setting`] for a tolerance below 0 or that is not finite.
     ///
     /// ```
     /// # use genga::{edits::Edits, pipeline::Engine, recipe::Recipe};
@@ -94,6 +94,10 @@ impl Evaluation {
         reference: Option<&[Frame]>,
         tolerance: f64,
     ) -> Result<Self, Error> {
+        if !(tolerance.is_finite() && tolerance >= 0.0) {
+            let message = format!("expected koma, 0 or more, as in 1 or 0.5, found {tolerance}");
+            return Err(Error::setting("tolerance", message));
+        }
         if clip.is_empty() || clip.skeleton().is_empty() {
             return Err(Error::clip("the clip has no motion: it needs a joint and a frame"));
         }
@@ -121,6 +125,18 @@ impl Evaluation {
             hand_contacts: contacts.iter().filter(|contact| contact.limb == Limb::Hand).count(),
             pops: shown::pops(&mut body, &composite, sheet.clock.koma_rate),
             timing: reference.map(|keys| timing(clip, sheet, &genga, keys, tolerance)),
+        })
+    }
+
+    /// Says how many reference keys are beyond the clip and so do not count; `None` if all are in it.
+    pub fn beyond(clip: &Clip, reference: &[Frame]) -> Option<String> {
+        let count = reference.iter().filter(|frame| !clip.contains(**frame)).count();
+        let keys = if count == 1 { "key" } else { "keys" };
+        let (first, last) = (clip.first(), clip.last());
+        (count > 0).then(|| {
+            format!(
+                "{count} reference {keys} beyond frames {first} to {last} of the sheet do not count"
+            )
         })
     }
 }
