@@ -25,7 +25,7 @@ const FRAMES: [&str; 2] = ["source_frame", "frame"];
 /// - a `sheet.json`, whose genga are the keys;
 /// - a table as `genga keys` writes it, or any CSV with a column `frame` or `source_frame`; rows whose
 ///   `role` is not genga are skipped, and fields may be separated by semicolons or tabs too;
-/// - a list of frames, one per line, in which `#` begins a comment;
+/// - a list of frames, one per line, in which `#` begins a comment; a table may have such lines before its header;
 /// - an MMD motion (.vmd): the frames on which a bone of the body has a key. It runs at 30 frames per second,
 ///   and its frame 0 is the first frame of the `clip`.
 ///
@@ -42,10 +42,13 @@ pub fn reference_keys(bytes: &[u8], clip: &Clip) -> Result<Vec<Frame>, Error> {
     let text = std::str::from_utf8(bytes).map_err(|_| {
         Error::sheet("this is not text in UTF-8; keys are a sheet.json, a CSV or a list of frames")
     })?;
-    let mut frames = match text.trim_start().chars().next() {
+    let lead: usize =
+        text.split_inclusive('\n').take_while(|line| is_comment(line)).map(str::len).sum();
+    let (lead, rest) = text.split_at(lead);
+    let mut frames = match rest.trim_start().chars().next() {
         Some('{') => of_sheet(bytes)?,
-        Some(letter) if letter.is_ascii_digit() || letter == '#' => listed(text)?,
-        Some(_) => of_table(text)?,
+        Some(letter) if letter.is_ascii_digit() => listed(text)?,
+        Some(_) => of_table(rest, lead.lines().count())?,
         None => Vec::new(),
     };
     if frames.is_empty() {
@@ -94,7 +97,14 @@ fn listed(text: &str) -> Result<Vec<Frame>, Error> {
         .collect()
 }
 
-fn of_table(text: &str) -> Result<Vec<Frame>, Error> {
+/// Whether a line has nothing but a comment.
+fn is_comment(line: &str) -> bool {
+    let line = line.trim();
+    line.is_empty() || line.starts_with('#')
+}
+
+/// Reads a table, which some `lines` of its file precede.
+fn of_table(text: &str, lines: usize) -> Result<Vec<Frame>, Error> {
     let mut table = table_reader(text);
     let failed = |error: csv::Error| Error::sheet(format!("this is no table: {error}"));
     let header = table.headers().map_err(failed)?.clone();
@@ -110,7 +120,7 @@ fn of_table(text: &str) -> Result<Vec<Frame>, Error> {
     let mut frames = Vec::new();
     for row in table.records() {
         let row = row.map_err(failed)?;
-        let line = row.position().map_or(1, |place| place.line() as usize);
+        let line = lines + row.position().map_or(1, |place| place.line() as usize);
         let is_key = role.and_then(|at| row.get(at)).is_none_or(|role| role == Role::Genga.word());
         if is_key {
             let text = row.get(at).unwrap_or_default();
@@ -179,6 +189,10 @@ mod tests {
         for parted_by in [";", "\t"] {
             assert_eq!(keys(&table.replace(',', parted_by)), [20, 46], "{parted_by:?}");
         }
+        let commented =
+            "# Dragon stand, 31 frames\n\nframe\tbones keyed (of 8 moving)\n0\t8\n12\t2\n";
+        assert_eq!(keys(commented), [0, 12]);
+        assert!(refused(&commented.replace("12", "x")).starts_with("5:1: "));
         assert!(refused("koma,drawing\n1,2\n").contains("begins with koma, drawing"));
     }
 
