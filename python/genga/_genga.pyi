@@ -10,6 +10,9 @@ from ._study import Study
 _Floats = npt.NDArray[np.float64]
 _Table = dict[str, npt.NDArray[Any]]
 _Frames = Union[int, str, tuple[Any, ...]]
+_Values = Union[str, Sequence[Any], npt.NDArray[Any]]
+_Axis = Union[tuple[str, _Values], dict[str, _Values]]
+_Keys = Union[Sequence[float], npt.NDArray[Any], Result, str, PathLike[str], bytes]
 _Source = Union[Clip, str, PathLike[str], bytes]
 
 __version__: str
@@ -76,6 +79,8 @@ class Clip:
         metres: Optional[float] = None,
         name: str = "clip",
     ) -> Clip: ...
+    @property
+    def name(self) -> str: ...
     @property
     def names(self) -> list[str]: ...
     @property
@@ -276,8 +281,8 @@ def study(
     clip: Union[_Source, Sequence[_Source]],
     recipe: Optional[Recipe] = None,
     *,
-    x: Optional[tuple[str, Union[str, Sequence[Any]]]] = None,
-    y: Optional[tuple[str, Union[str, Sequence[Any]]]] = None,
+    x: Optional[_Axis] = None,
+    y: Optional[_Axis] = None,
     measures: Optional[Sequence[str]] = None,
     per_joint: bool = False,
     **settings: Any,
@@ -286,7 +291,7 @@ def evaluate(
     clip: _Source,
     sheet: Union[Result, str, bytes, Mapping[str, bytes]],
     *,
-    reference: Optional[Sequence[int]] = None,
+    reference: Optional[_Keys] = None,
     tolerance: float = 1.0,
 ) -> dict[str, Any]: ...
 def compare(

@@ -196,6 +196,12 @@ impl Clip {
         Ok(Self::new(Arc::new(motion), format!("{name}.bvh"), Vec::new()))
     }
 
+    /// Name of the clip: the one that was given, else that of its file without the extension.
+    #[getter]
+    fn name(&self) -> String {
+        self.cut()
+    }
+
     /// Names of the J joints, parents first.
     #[getter]
     fn names(&self) -> Vec<String> {

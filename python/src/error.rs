@@ -33,7 +33,10 @@ pub fn raised_of(py: Python<'_>, error: genga::Error, file: Option<&Path>) -> Py
     let file = file.filter(|_| {
         matches!(
             error,
-            genga::Error::Motion { .. } | genga::Error::Clip { .. } | genga::Error::Recipe { .. }
+            genga::Error::Motion { .. }
+                | genga::Error::Clip { .. }
+                | genga::Error::Recipe { .. }
+                | genga::Error::Sheet { .. }
         )
     });
     let file = file.map(|file| file.display().to_string());

@@ -4,7 +4,6 @@ use std::sync::Arc;
 
 use genga::motion::Clip as Motion;
 use genga::pipeline::{Budget, Stop};
-use genga::time::Frame;
 use genga_files::sheet_json;
 use genga_lab::quality::{Compare, Evaluation, Row};
 use genga_lab::study::{Axis, Grid, Measure, Noise, Study, is_table_1, table_1_recipe};
@@ -15,12 +14,13 @@ use pyo3::types::{PyDict, PyList, PyTuple};
 use crate::clip::{Clip, taken};
 use crate::error::{asked_wrongly, raised, warned};
 use crate::recipe::Recipe;
+use crate::reference::ReferenceKeys;
 use crate::table::{Column, plain, table};
 use crate::words::{settings, word};
 use crate::work;
 
 /// Varies one or two settings and measures the result for each combination. `x` and `y` are a name with its values:
-/// `("filter.width", "10..60:5")` or `("filter.width", [10, 20, 30])`. Without both, computes Table 1 of the first
+/// `("filter.width", "10..60:5")`, `("filter.width", [10, 20, 30])` or `{"filter.width": [10, 20, 30]}`. Without both, computes Table 1 of the first
 /// paper. Where the axes are both axes of Table 1 and nothing else (`filter.width` and `turns.persistence`, in
 /// either order, whatever their values), all other settings are the paper's, `Recipe.table_1()`; with any other axes,
 /// and with `filter.width` alone, they are those of `run`, `Recipe()`. A recipe that is given replaces either, and
@@ -39,8 +39,8 @@ pub fn study<'py>(
     py: Python<'py>,
     clip: &Bound<'py, PyAny>,
     recipe: Option<Recipe>,
-    x: Option<(String, Bound<'py, PyAny>)>,
-    y: Option<(String, Bound<'py, PyAny>)>,
+    x: Option<Bound<'py, PyAny>>,
+    y: Option<Bound<'py, PyAny>>,
     measures: Option<Vec<String>>,
     per_joint: bool,
     settings: Option<&Bound<'py, PyDict>>,
@@ -109,8 +109,8 @@ fn not_set_too(
 /// Parses the axes; those of Table 1 by default.
 fn axes<'py>(
     py: Python<'py>,
-    x: Option<(String, Bound<'py, PyAny>)>,
-    y: Option<(String, Bound<'py, PyAny>)>,
+    x: Option<Bound<'py, PyAny>>,
+    y: Option<Bound<'py, PyAny>>,
 ) -> PyResult<(Axis, Option<Axis>)> {
     let parse =
         |(name, values): (&str, &str)| Axis::new(name, values).map_err(|error| raised(py, error));
@@ -118,7 +118,7 @@ fn axes<'py>(
         (None, None) => {
             Ok((parse(("filter.width", "10,20,30"))?, Some(parse(("turns.persistence", "5,10"))?)))
         }
-        (Some(x), y) => Ok((axis(py, x)?, y.map(|y| axis(py, y)).transpose()?)),
+        (Some(x), y) => Ok((axis("x", &x)?, y.map(|y| axis("y", &y)).transpose()?)),
         (None, Some(_)) => Err(asked_wrongly(py, "y is varied for each value of x: give x too")),
     }
 }
@@ -165,8 +165,10 @@ fn settings_alone(py: Python<'_>, recipe: Recipe) -> PyResult<genga::recipe::Rec
     Ok(recipe.recipe)
 }
 
-/// Parses an axis: values as the program takes them, or a list.
-fn axis(py: Python<'_>, (name, values): (String, Bound<'_, PyAny>)) -> PyResult<Axis> {
+/// Parses an axis: a name with its values, which are text as the program takes it, or a list.
+fn axis(argument: &str, given: &Bound<'_, PyAny>) -> PyResult<Axis> {
+    let py = given.py();
+    let (name, values) = named(argument, given)?;
     let words = match values.extract::<String>() {
         Ok(words) => words,
         Err(_) => {
@@ -175,6 +177,21 @@ fn axis(py: Python<'_>, (name, values): (String, Bound<'_, PyAny>)) -> PyResult<
         }
     };
     Axis::new(&name, &words).map_err(|error| raised(py, error))
+}
+
+/// Takes a name and its values from a tuple or a dict of one.
+fn named<'py>(argument: &str, given: &Bound<'py, PyAny>) -> PyResult<(String, Bound<'py, PyAny>)> {
+    let pair = match given.cast::<PyDict>() {
+        Ok(dict) if dict.len() == 1 => dict.items().get_item(0)?,
+        _ => given.clone(),
+    };
+    let found = given.repr()?;
+    pair.extract().map_err(|_| {
+        let message = format!(
+            "expected a name and its values, as in (\"filter.width\", [10, 20]), found {found}"
+        );
+        raised(given.py(), genga::Error::setting(argument, message))
+    })
 }
 
 /// Builds the columns that say which cell of which clip a row is of; `rows` is how many each cell of a clip has.
@@ -239,39 +256,43 @@ fn of_joints<'py>(
 }
 
 /// Evaluates a sheet (a `genga.Result`, the dict of `Result.to_json()`, or the text of a `sheet.json`) against its
-/// clip. `reference` are key frames that somebody else chose; a key within `tolerance` koma of one counts as the same.
-/// Those beyond the sheet do not count, with a warning.
-/// Returns nested dicts like the output of `genga eval --json`; the scores against `reference` are in it under `timing`
-/// (`f1`, `precision`, `recall` and more), which is None without `reference`. Errors are in % of body height. Anything
-/// else as a sheet raises `TypeError`.
+/// clip. `reference` are key frames that somebody else chose: whole numbers, another `genga.Result`, or a path or the
+/// bytes of a file that `genga eval --reference` reads, such as a table with a column `frame`. A key within `tolerance`
+/// koma of one counts as the same. Those beyond the sheet do not count, with a warning. Returns nested dicts like the
+/// output of `genga eval --json`; the scores against `reference` are in it under `timing` (`f1`, `precision`, `recall`
+/// and more), which is None without `reference`. Errors are in % of body height. Anything else as a sheet raises
+/// `TypeError`.
 #[pyfunction]
 #[pyo3(signature = (clip, sheet, *, reference=None, tolerance=1.0))]
 pub fn evaluate<'py>(
     py: Python<'py>,
     clip: &Bound<'py, PyAny>,
     sheet: &Bound<'py, PyAny>,
-    reference: Option<Vec<usize>>,
+    reference: Option<&Bound<'py, PyAny>>,
     tolerance: f64,
 ) -> PyResult<Bound<'py, PyAny>> {
     let text = text_of(sheet)?;
-    let reference: Option<Vec<Frame>> =
-        reference.map(|frames| frames.into_iter().map(Frame).collect());
+    let reference = reference.map(ReferenceKeys::of).transpose()?;
     let motion = taken(clip)?.get().motion.clone();
-    let made = work::done(py, move |_| {
+    let fitted = work::done(py, move |_| {
         let file = sheet_json::read(&text)?;
         let (source, notes) = file.fit((*motion).clone())?;
-        let drawn = file.drawn(&source)?.unwrap_or(source);
-        let beyond = reference.as_deref().and_then(|keys| Evaluation::beyond(&drawn, keys));
-        let notes: Vec<_> = notes.iter().map(ToString::to_string).chain(beyond).collect();
-        Ok((Evaluation::new(&drawn, &file.sheet, reference.as_deref(), tolerance)?, notes))
+        let drawn = file.drawn(&source)?;
+        Ok((file.sheet, source, drawn, notes))
     })?;
-    let (evaluation, notes) = made.map_err(|error| raised(py, error))?;
+    let (sheet, source, drawn, notes) = fitted.map_err(|error| raised(py, error))?;
+    let reference = reference.map(|keys| keys.frames(py, &source)).transpose()?;
+    let drawn = drawn.unwrap_or(source);
     notes.iter().try_for_each(|note| warned(py, note))?;
-    plain(py, &evaluation)
+    let beyond = reference.as_deref().and_then(|keys| Evaluation::beyond(&drawn, keys));
+    beyond.iter().try_for_each(|note| warned(py, note))?;
+    let made =
+        work::done(py, move |_| Evaluation::new(&drawn, &sheet, reference.as_deref(), tolerance))?;
+    plain(py, &made.map_err(|error| raised(py, error))?)
 }
 
 /// Returns the text of a sheet that is given as a result, as its files or as the text.
-fn text_of(sheet: &Bound<'_, PyAny>) -> PyResult<Vec<u8>> {
+pub fn text_of(sheet: &Bound<'_, PyAny>) -> PyResult<Vec<u8>> {
     let files = match sheet.is_instance_of::<crate::result::Result>() {
         true => sheet.call_method0("to_json")?,
         false => sheet.clone(),

@@ -16,6 +16,7 @@ mod knobs;
 mod omit;
 mod pickle;
 mod recipe;
+mod reference;
 mod result;
 mod table;
 mod targets;

@@ -122,7 +122,7 @@ def test_a_clip_from_arrays_is_the_same_motion(clip):
 
 def arrays_of(clip):
     """All that a clip says of itself."""
-    names = ["names", "parents", "offsets", "rotations", "translations", "tips", "rate", "first", "up", "metres"]
+    names = ["name", "names", "parents", "offsets", "rotations", "translations", "tips", "rate", "first", "up", "metres"]
     return {name: getattr(clip, name) for name in names}
 
 
@@ -135,6 +135,7 @@ def test_arrays_out_and_in_again_give_the_same_keys():
     for path in [KICK, ROOT / "data" / "kuroda-pitch.bvh", *real(*CLIPS[:2])]:
         clip = genga.read(path)
         made = genga.Clip(**arrays_of(clip))
+        assert made.name == clip.name == path.stem
         asked, wanted = genga.run(made).keys, genga.run(clip).keys
         assert asked["frame"].tolist() == wanted["frame"].tolist(), path.name
         assert asked["reason"].tolist() == wanted["reason"].tolist(), path.name
@@ -146,6 +147,8 @@ def test_what_a_clip_says_of_itself_is_what_it_was_made_of(clip):
     made = genga.Clip(**{**arrays_of(clip), "tips": tips, "first": 12, "up": "z", "metres": 0.01})
     assert np.array_equal(made.tips, tips, equal_nan=True) and made.to_bvh().count("End Site") == 2
     assert (made.first, made.up, made.metres) == (12, "z", 0.01)
+    assert genga.Clip(**{**arrays_of(clip), "name": "take 1.b"}).name == "take 1.b"
+    assert (genga.read(KICK, name="other").name, genga.read(KICK.read_bytes()).name) == ("other", "clip")
     assert np.allclose(made.translations, clip.translations, atol=1e-9)
     assert made.translations is made.translations and not made.translations.flags.writeable
     assert (clip.up, clip.metres, clip.tips.shape) == (None, None, (len(clip.names), 3))
@@ -540,6 +543,10 @@ def test_the_same_axes_are_the_same_study_however_they_are_given(clip):
     width, persistence = "filter.width", "turns.persistence"
     for values in ("10,20,30", "10..30:10", [10, 20, 30], np.array([10, 20, 30])):
         same_table(genga.study(clip, x=(width, values), y=(persistence, [5, 10])), table)
+        same_table(genga.study(clip, x={width: values}, y={persistence: [5, 10]}), table)
+    for wrong in (7, "filter.width", {}, {width: [10], "rate": [12]}, (width,), (1, [10])):
+        with pytest.raises(genga.Error, match=r"x: expected a name and its values, .* found "):
+            genga.study(clip, x=wrong)
     same_table(genga.study(clip, genga.Recipe.table_1()), table)
     turned = genga.study(clip, x=(persistence, [5, 10]), y=(width, [10, 20, 30]))
     assert sorted(turned["union"].tolist()) == sorted(table["union"].tolist())
@@ -667,6 +674,26 @@ def test_reference_keys_beyond_the_sheet_are_told_as_a_warning(clip):
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         assert genga.evaluate(clip, result, reference=[20, 46]) == found
+
+
+def test_reference_keys_are_frames_a_result_or_a_file(clip, tmp_path):
+    result, other = genga.run(clip), genga.run(clip, rate=12)
+    drawings = other.sheet.drawings
+    frames = drawings["place"][drawings["role"] == "genga"].tolist()
+    wanted = genga.evaluate(clip, result, reference=[int(frame) for frame in frames])
+    table = tmp_path / "h.txt"
+    table.write_text("# by hand\nframe\tbones keyed\n" + "".join(f"{frame}\t2\n" for frame in frames))
+    for given in (frames, np.array(frames), np.array(frames, int), other, table, str(table), table.read_bytes()):
+        assert genga.evaluate(clip, result, reference=given) == wanted, given
+    table.write_text("frame\n12\nlate\n")
+    with pytest.raises(genga.Error, match=r"h\.txt:3:1: expected the number of a source frame") as raised:
+        genga.evaluate(clip, result, reference=table)
+    assert (raised.value.file, raised.value.line) == (str(table), 3)
+    with pytest.raises(FileNotFoundError):
+        genga.evaluate(clip, result, reference="nothing.txt")
+    for wrong in (7, [2.5], [-1], ["a"], np.array([math.nan]), result.keys):
+        with pytest.raises(genga.Error, match=r"reference: expected source frames, .* found "):
+            genga.evaluate(clip, result, reference=wrong)
 
 
 def test_again_is_a_new_run_and_leaves_the_old(clip):
