@@ -23,7 +23,7 @@ use scopes::Scope;
 
 pub use crate::knob::{Kind, Knob, Who};
 pub use footage::Footage;
-pub use knobs::KNOBS;
+pub use knobs::{KNOBS, unknown_beside};
 pub use scopes::{Frames, Outside, Overrides, Passage, Scopes};
 pub use timing::LayerTiming;
 

@@ -55,12 +55,15 @@ pub fn raised_of(py: Python<'_>, error: genga::Error, file: Option<&Path>) -> Py
     }
 }
 
-/// Replaces options of the program that are arguments of `read`.
+/// Replaces options of the program that are arguments of `read`, and its help.
 pub fn in_python(message: &str) -> String {
+    let message = message.replace(
+        "`genga run --help` lists them and the options",
+        "genga.knobs() lists them, and help() of the function its arguments",
+    );
     let argument = |name: &str| name.replace('-', "_");
-    let message = ["repair", "keep-lead-in", "keep-glitches"]
-        .iter()
-        .fold(message.to_owned(), |message, name| {
+    let message =
+        ["repair", "keep-lead-in", "keep-glitches"].iter().fold(message, |message, name| {
             message.replace(&format!("--{name}"), &format!("{}=True", argument(name)))
         });
     ["fps", "root", "take", "trim"]

@@ -52,7 +52,7 @@ pub fn study<'py>(
         false => Recipe::default().recipe,
     };
     let own = Recipe { recipe: own, ..Recipe::default() };
-    let recipe = settings_alone(py, recipe.unwrap_or(own).with(py, settings)?)?;
+    let recipe = settings_alone(py, recipe.unwrap_or(own).with_of(py, settings, "study")?)?;
     if per_joint && measures.is_some() {
         let message = "per_joint counts the keys of each joint: leave measures out";
         return Err(asked_wrongly(py, message));
@@ -90,7 +90,7 @@ fn with_recipe<'py>(
     Ok(made)
 }
 
-/// Refuses a setting that is both on an axis and given a value.
+/// Refuses a value of what is on an axis, or can only be.
 fn not_set_too(
     py: Python<'_>,
     x: &Axis,
@@ -98,12 +98,17 @@ fn not_set_too(
     asked: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<()> {
     let is_varied = |name: &str| [Some(x), y].into_iter().flatten().any(|axis| axis.name() == name);
-    match settings(asked)?.into_iter().find(|(name, _)| is_varied(name)) {
-        Some((name, _)) => {
-            Err(raised(py, genga::Error::setting(name, "a study varies it already")))
-        }
-        None => Ok(()),
+    for (name, _) in settings(asked)? {
+        let message = match &*name {
+            name if is_varied(name) => "a study varies it already".into(),
+            name if Noise::AXES.contains(&name) => {
+                format!("it is no setting but an axis of a study, as in x=(\"{name}\", [0, 1])")
+            }
+            _ => continue,
+        };
+        return Err(raised(py, genga::Error::setting(name, message)));
     }
+    Ok(())
 }
 
 /// Parses the axes; those of Table 1 by default.
@@ -172,7 +177,11 @@ fn axis(argument: &str, given: &Bound<'_, PyAny>) -> PyResult<Axis> {
     let words = match values.extract::<String>() {
         Ok(words) => words,
         Err(_) => {
-            let words = values.try_iter()?.map(|value| word(&value?));
+            let values = values.try_iter().map_err(|_| {
+                let message = "expected a list of values, or text such as \"10..60:5\"";
+                raised(py, genga::Error::setting(&*name, message))
+            })?;
+            let words = values.map(|value| word(&value?));
             words.collect::<PyResult<Vec<_>>>()?.join(",")
         }
     };
@@ -323,7 +332,7 @@ pub fn compare<'py>(
     noise: f64,
     settings: Option<&Bound<'py, PyDict>>,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let recipe = settings_alone(py, recipe.unwrap_or_default().with(py, settings)?)?;
+    let recipe = settings_alone(py, recipe.unwrap_or_default().with_of(py, settings, "compare")?)?;
     let noise = Noise { degrees: noise, ..Noise::default() };
     let asked = Compare { recipe, counts: keys, noise, ..Compare::default() };
     let motion = taken(clip)?.get().motion.clone();

@@ -1,8 +1,8 @@
 //! A recipe as a mapping with the names of its TOML.
 
 use genga::edits::Edits;
-use genga::recipe::Recipe as Settings;
-use genga_lab::study::table_1_recipe;
+use genga::recipe::{Knob, Recipe as Settings, unknown_beside};
+use genga_lab::study::{Noise, table_1_recipe};
 use pyo3::exceptions::PyKeyError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyType};
@@ -23,9 +23,22 @@ pub struct Recipe {
 
 impl Recipe {
     /// Applies settings by name.
-    pub fn with(mut self, py: Python<'_>, asked: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
+    pub fn with(self, py: Python<'_>, asked: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
+        self.with_of(py, asked, "Recipe")
+    }
+
+    /// Applies settings that are arguments of a function of the package. An unknown name may be meant for another one.
+    pub fn with_of(
+        mut self,
+        py: Python<'_>,
+        asked: Option<&Bound<'_, PyDict>>,
+        function: &str,
+    ) -> PyResult<Self> {
         for (name, word) in settings(asked)? {
-            self.recipe.set(&name, &word).map_err(|error| raised(py, error))?;
+            self.recipe.set(&name, &word).map_err(|error| match is_unknown(&name) {
+                true => unknown(py, &name, function),
+                false => raised(py, error),
+            })?;
         }
         Ok(self)
     }
@@ -38,6 +51,34 @@ impl Recipe {
         let found = self.recipe.settings().into_iter().find(|(own, _)| own == name);
         found.map(|(_, word)| word).ok_or_else(|| PyKeyError::new_err(name.to_owned()))
     }
+}
+
+/// Whether there is no such setting. A joint's weight and a setting of a layer or a passage have no knob of their own.
+fn is_unknown(name: &str) -> bool {
+    !name.contains('/') && !name.starts_with("keys.weights.") && Knob::find(name).is_err()
+}
+
+/// Builds the exception of an unknown argument of a function of the package.
+fn unknown(py: Python<'_>, name: &str, function: &str) -> PyErr {
+    let own = arguments(py, function).unwrap_or_default();
+    let axes = if function == "study" { &Noise::AXES[..] } else { &[] };
+    let own: Vec<&str> = own.iter().map(String::as_str).chain(axes.iter().copied()).collect();
+    raised(py, unknown_beside(name, &own))
+}
+
+/// Returns the names of the arguments of a function of the package.
+fn arguments(py: Python<'_>, function: &str) -> PyResult<Vec<String>> {
+    let get = py.import("operator")?.call_method1("attrgetter", (function,))?;
+    let function = get.call1((py.import("genga")?,))?;
+    let signature = py.import("inspect")?.call_method1("signature", (function,))?;
+    let mut names = Vec::new();
+    for argument in signature.getattr("parameters")?.call_method0("values")?.try_iter()? {
+        let argument = argument?;
+        if argument.getattr("kind")?.getattr("name")?.extract::<String>()? != "VAR_KEYWORD" {
+            names.push(argument.getattr("name")?.extract()?);
+        }
+    }
+    Ok(names)
 }
 
 #[pymethods]

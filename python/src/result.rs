@@ -106,7 +106,7 @@ pub fn run<'py>(
     name: Option<String>,
     settings: Option<&Bound<'py, PyDict>>,
 ) -> PyResult<Result> {
-    let mut asked = recipe.unwrap_or_default().with(py, settings)?;
+    let mut asked = recipe.unwrap_or_default().with_of(py, settings, "run")?;
     Corrections { pins, forbid, moves, holds, only_pins }.add_to(&mut asked.edits)?;
     let targets = targets_of(py, targets)?;
     let clip = taken(clip)?;
@@ -357,7 +357,11 @@ impl Result {
         targets: Option<&Bound<'_, PyDict>>,
         settings: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Self> {
-        let asked = recipe.unwrap_or_else(|| self.settings.clone()).with(py, settings)?;
+        let asked = recipe.unwrap_or_else(|| self.settings.clone()).with_of(
+            py,
+            settings,
+            "Result.again",
+        )?;
         let targets = targets_of(py, targets)?;
         let engine = work::done_with(py, &self.engine, |engine: &mut Engine, _| engine.clone())?;
         let (clip, cut) = (self.clip.clone_ref(py), self.cut.clone());

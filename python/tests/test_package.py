@@ -419,6 +419,38 @@ def test_wrong_corrections_are_told_in_python(corrections, says, clip):
         genga.run(clip, **corrections)
 
 
+@pytest.mark.parametrize(
+    "function, arguments, says",
+    [
+        ("run", {"forbidden": [4]}, "forbidden: .*; did you mean forbid[?]"),
+        ("run", {"pin": [4]}, "pin: .*; did you mean pins[?]"),
+        ("run", {"rat": 12}, "rat: .*; did you mean rate[?]"),
+        ("run", {"settngs": 12}, "settngs: there is no such setting of the method; genga.knobs.. lists them, and help"),
+        ("study", {"stability": True}, "stability: there is no such setting of the method; genga.knobs.. lists them"),
+        ("study", {"measure": ["union"]}, "measure: .*; did you mean measures[?]"),
+        ("study", {"x": ("nose", [1])}, "nose: .*; did you mean noise[?]"),
+        ("study", {"x": ("noise.sed", [1])}, "noise.sed: .*; did you mean noise.seed[?]"),
+        ("study", {"nose": 0.1}, "nose: .*; did you mean noise[?]"),
+        ("study", {"noise__sed": 1}, "noise.sed: .*; did you mean noise.seed[?]"),
+        ("study", {"noise": 0.1}, r"noise: it is no setting but an axis of a study, as in x=\("),
+        ("study", {"x": ("filter.width", 10)}, "filter.width: expected a list of values"),
+        ("compare", {"nois": 0.1}, "nois: .*; did you mean noise[?]"),
+        ("Recipe", {"keys__weights": 2}, "keys.weights: .* keys.weights.JOINT=2"),
+        ("Recipe", {"keys": {"weights": {"Hips": "x"}}}, "keys.weights"),
+    ],
+)
+def test_an_unknown_argument_is_told_what_may_be_meant(function, arguments, says, clip):
+    given = [] if function == "Recipe" else [clip]
+    with pytest.raises(genga.Error, match=says) as raised:
+        getattr(genga, function)(*given, **arguments)
+    assert "--" not in str(raised.value)
+
+
+def test_a_new_run_is_told_its_own_arguments(clip):
+    with pytest.raises(genga.Error, match="target: .*; did you mean targets[?]"):
+        genga.run(clip).again(target=9)
+
+
 def test_options_of_the_program_are_told_as_arguments():
     text = KICK.read_text(encoding="utf-8")
     row = text.rstrip().rsplit("\n", 1)[1]

@@ -73,13 +73,23 @@ impl Knob {
 
 /// Returns the error for an unknown setting, with a similar name as a hint.
 pub(super) fn unknown(name: &str) -> Error {
+    unknown_beside(name, &[])
+}
+
+/// Returns the error for an unknown setting, with a similar name, of the settings or of `others`, as a hint.
+///
+/// ```
+/// let error = genga::recipe::unknown_beside("nose", &["noise"]);
+/// assert_eq!(error.to_string(), "nose: there is no such setting; did you mean noise?");
+/// ```
+pub fn unknown_beside(name: &str, others: &[&str]) -> Error {
     // `keys.weights` is a table of weights.
     if name.starts_with("keys.weight") {
         let message =
             "there is no such setting; how much a joint counts is set by keys.weights.JOINT=2";
         return Error::setting(name, message);
     }
-    let hint = did_you_mean(name, KNOBS.iter().map(|knob| knob.name));
+    let hint = did_you_mean(name, KNOBS.iter().map(|knob| knob.name).chain(others.iter().copied()));
     Error::setting(name, match hint.is_empty() {
         true => "there is no such setting of the method; `genga run --help` lists them and the options".into(),
         false => format!("there is no such setting{hint}"),

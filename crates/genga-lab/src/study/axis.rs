@@ -5,7 +5,7 @@ use std::str::FromStr;
 use crate::study::noise::{NOISE, Noise, SEED};
 use crate::study::range;
 use genga::error::Error;
-use genga::recipe::{Kind, Knob, Recipe};
+use genga::recipe::{Kind, Knob, Recipe, unknown_beside};
 use genga::time::{FrameRate, Span};
 
 /// Sections of the recipe that change the sheet and not the keys.
@@ -163,7 +163,7 @@ fn find(name: &str) -> Result<&'static Knob, Error> {
     match name {
         "noise" => Ok(&NOISE),
         "noise.seed" => Ok(&SEED),
-        _ => Knob::find(name),
+        _ => Knob::find(name).map_err(|_| unknown_beside(name, &Noise::AXES)),
     }
 }
 
@@ -213,6 +213,8 @@ mod tests {
         for (wrong, says) in [
             ("filter.width", "KNOB=VALUES"),
             ("filter.widht=10", "did you mean filter.width"),
+            ("nose=1", "did you mean noise?"),
+            ("noise.sed=1", "did you mean noise.seed?"),
             ("filter.width=", "filter.width: a value is missing"),
             ("filter.width=10..60", "filter.width: \"10..60\" has no step"),
             ("filter.width=-5..5:5", "filter.width: expected"),

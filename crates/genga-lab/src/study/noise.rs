@@ -41,6 +41,9 @@ pub struct Noise {
 }
 
 impl Noise {
+    /// Names of the axes that vary it.
+    pub const AXES: [&str; 2] = [NOISE.name, SEED.name];
+
     /// Checks the strength.
     ///
     /// # Errors
