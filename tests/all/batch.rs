@@ -348,7 +348,8 @@ fn a_clip_that_ends_in_the_middle_is_done_and_the_last_lines_say_so() {
     fs::write(place.path("lib/half.bvh"), &whole[..30_000]).unwrap();
     fs::copy(crate::clips::here("data/kick.bvh"), place.path("lib/kick.bvh")).unwrap();
     let said = place.said("batch lib --out out");
-    assert!(said.contains("(--strict refuses damaged ones): W_FRAMES_MISMATCH 1\n"), "{said}");
+    let named = "(--strict refuses damaged ones): W_FRAMES_MISMATCH 1 (half.bvh)\n";
+    assert!(said.contains(named), "{said}");
     let (code, said) = code(&place, "batch lib --strict --out strict");
     assert!(code == 1 && said.contains("half.bvh"), "{said}");
 }

@@ -87,7 +87,7 @@ pub(super) struct Reading {
     /// nan and inf get the value before them, and surplus values of a row are dropped. A note reports each repair.
     #[arg(long, conflicts_with = "strict", help_heading = READING)]
     repair: bool,
-    /// Refuse a file with warnings, but for those about a T-pose or a dialect (W_LEAD_IN, W_FORMAT).
+    /// Refuse a file with warnings, but for W_LEAD_IN and W_FORMAT.
     #[arg(long, help_heading = READING)]
     strict: bool,
     /// Memory limit in GiB.
