@@ -163,6 +163,16 @@ fn a_cross_on_the_strip_says_where_no_genga_may_stand_and_lifts_the_ban() {
 }
 
 #[test]
+fn a_ban_names_the_koma_on_which_its_genga_was_seen() {
+    let mut table = Table::plain_kick();
+    // Its frame is 71, the koma of which is 72.
+    table.go(70);
+    assert_eq!(table.strip_says(), "genga 12, koma 70");
+    table.tap(Modifiers::NONE, Key::K);
+    assert!(table.button_on_strip("Forbidden koma 70 (").is_some());
+}
+
+#[test]
 fn a_pin_says_which_genga_it_replaces_and_keeps_both() {
     let mut table = Table::plain_kick();
     let genga = table.genga();

@@ -104,6 +104,7 @@ impl Studio {
         self.desk.remember(&take.path);
         self.recent = self.desk.recent();
         (self.held, self.before, self.message) = (None, None, None);
+        self.taken.clear();
         (self.difference, self.asked, self.is_before) = (None, None, false);
         self.searching = None;
         self.take = Some(take);

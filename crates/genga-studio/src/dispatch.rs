@@ -15,6 +15,7 @@ use super::open_take::{Results, Take};
 use super::opening::Opening;
 use super::passages;
 use super::playhead_edits::Here;
+use super::view_state::Taken;
 use super::viewport::Orbit;
 use super::words::Language;
 use genga::error::Error;
@@ -267,7 +268,14 @@ impl Studio {
         self.is_before = false;
         let passage = self.marked_passage();
         let Some(take) = &mut self.take else { return };
-        let column = take.results().named(self.chosen);
+        let results = take.results();
+        if let Command::Correct(Correction::Forbid(key, ban)) = &command
+            && let Some(column) = Column::all(&results.breakdown).get(self.chosen)
+        {
+            let (frame, koma) = (key.unmoved(), column.koma_of(key.frame));
+            self.taken.push(Taken { ban: *ban, frame, koma });
+        }
+        let column = results.named(self.chosen);
         let column = column.as_deref();
         let wanted = &mut take.wanted;
         let changed = match command {

@@ -119,6 +119,7 @@ use theme::Look;
 use timesheet::Timesheet;
 use toolbar::Bar;
 use tour::Tour;
+use view_state::Taken;
 use viewport::Viewport;
 use words::Words;
 
@@ -190,6 +191,8 @@ pub struct Studio {
     is_new: bool,
     /// Whether the sheet before the last change is shown.
     is_before: bool,
+    /// The genga that a person took away since the clip was opened.
+    taken: Vec<Taken>,
 }
 
 impl Studio {
@@ -238,6 +241,7 @@ impl Studio {
             difference: None,
             is_new: false,
             is_before: false,
+            taken: Vec::new(),
         }
     }
 

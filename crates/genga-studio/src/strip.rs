@@ -208,7 +208,7 @@ impl Strip {
         let passage = self.hovered.as_ref().map(|own| (own, ui.input(|input| input.time)));
         let pointed = ui.input(|input| input.pointer.hover_pos());
         let ban = pointed.and_then(|at| bans.iter().find(|ban| ban.is_at(at)));
-        let banned: Vec<f64> = ban.into_iter().flat_map(Ban::taken).collect();
+        let banned: Vec<(usize, f64)> = ban.into_iter().flat_map(Ban::taken).collect();
         figures::draw(&painter, layout, (figured, passage), (shown, orbit), (changed, &banned));
     }
 }

@@ -138,6 +138,7 @@ impl Studio {
             chosen: self.chosen,
             scene,
             wanted,
+            taken: &self.taken,
             joints,
             at,
             counts_frames: self.counts_frames,

@@ -60,6 +60,8 @@ pub(super) struct Shown<'a> {
     pub(super) scene: &'a Scene,
     /// The document asked for. The results of a slow clip may lag behind it.
     pub(super) wanted: &'a Document,
+    /// The genga that a person took away since the clip was opened.
+    pub(super) taken: &'a [Taken],
     /// The joints whose curves and trails are drawn.
     pub(super) joints: &'a [JointId],
     /// The koma of the play head.
@@ -70,6 +72,14 @@ pub(super) struct Shown<'a> {
     pub(super) beside: Beside<'a>,
     pub(super) look: Look,
     pub(super) words: Words,
+}
+
+/// A genga that a person took away (禁止した原画): its ban, its frame, and the koma on which it was seen.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Taken {
+    pub(super) ban: Forbidden,
+    pub(super) frame: Frame,
+    pub(super) koma: usize,
 }
 
 impl<'a> Shown<'a> {
@@ -134,8 +144,9 @@ impl<'a> Shown<'a> {
         [from, to.max(from)]
     }
 
-    /// The found genga that a ban takes away from a column, by their frames. A genga belongs to the shortest ban.
-    pub(super) fn taken_away(&self, column: &Column<'_>, ban: Forbidden) -> Vec<Frame> {
+    /// The found genga that a ban takes away from a column, by their frames, with the koma on which they were seen, else
+    /// those of their frames. A genga belongs to the shortest ban.
+    pub(super) fn taken_away(&self, column: &Column<'_>, ban: Forbidden) -> Vec<(usize, Frame)> {
         let edits = self.wanted.edits.of_layer(column.name);
         let length = |ban: &Forbidden| ban.past.0 - ban.from.0;
         let koma = column.clock.frames_in_koma();
@@ -143,13 +154,18 @@ impl<'a> Shown<'a> {
             let bans = edits.forbidden.iter().filter(|own| own.reaches(*frame, koma));
             bans.min_by_key(|own| length(own)) == Some(&ban)
         };
-        column.found.uncorrected.iter().map(|key| key.frame).filter(is_its).collect()
+        let seen =
+            |frame: Frame| self.taken.iter().rfind(|own| (own.ban, own.frame) == (ban, frame));
+        let koma =
+            |frame| seen(frame).map_or_else(|| column.clock.koma_from_frame(frame), |own| own.koma);
+        let taken = column.found.uncorrected.iter().map(|key| key.frame).filter(is_its);
+        taken.map(|frame| (koma(frame), frame)).collect()
     }
 
     /// The koma, in the middle of a ban or of the one genga that it takes away.
     pub(super) fn middle_of_ban(&self, column: &Column<'_>, ban: Forbidden) -> f32 {
         match self.taken_away(column, ban).as_slice() {
-            [frame] => column.clock.koma_from_frame(*frame) as f32,
+            [(koma, _)] => *koma as f32,
             _ => {
                 let [from, to] = self.koma_of_ban(column, ban);
                 0.5 * (from + to.min(column.length.saturating_sub(1))) as f32
@@ -168,17 +184,16 @@ impl<'a> Shown<'a> {
     /// one genga that it takes away.
     pub(super) fn named_ban(&self, ban: Forbidden) -> String {
         let column = self.column();
-        let number = |frame: Frame| match self.counts_frames {
-            true => frame.0,
-            false => column.clock.koma_from_frame(frame) + 1,
-        };
         let [from, to] = match self.counts_frames {
             true => self.ends(ban).map(|frame| frame.0),
             false => self.koma_of_ban(column, ban).map(|koma| koma + 1),
         };
         let range = if from == to { from.to_string() } else { format!("{from}–{to}") };
         match self.taken_away(column, ban).as_slice() {
-            [frame] if from != to => self.counted(&format!("{} ({range})", number(*frame))),
+            [(koma, frame)] if from != to => {
+                let number = if self.counts_frames { frame.0 } else { koma + 1 };
+                self.counted(&format!("{number} ({range})"))
+            }
             _ => self.counted(&range),
         }
     }

@@ -27,8 +27,8 @@ pub(super) struct Ban {
     range: Forbidden,
     /// The column that it is of. `None` for all columns.
     column: Option<String>,
-    /// Frames of the genga that it takes away.
-    taken: Vec<Frame>,
+    /// Koma and frames of the genga that it takes away.
+    taken: Vec<(usize, Frame)>,
     line: Rangef,
     at: Pos2,
     /// Whether its cross is drawn.
@@ -41,9 +41,9 @@ impl Ban {
         self.has_cross && self.room().contains(at)
     }
 
-    /// The places of the source that the genga show which it takes away.
-    pub(super) fn taken(&self) -> impl Iterator<Item = f64> {
-        self.taken.iter().map(|frame| frame.0 as f64)
+    /// The koma of the genga that it takes away, and the places of the source that they show.
+    pub(super) fn taken(&self) -> impl Iterator<Item = (usize, f64)> {
+        self.taken.iter().map(|(koma, frame)| (*koma, frame.0 as f64))
     }
 
     fn room(&self) -> Rect {

@@ -85,14 +85,12 @@ pub(super) fn draw(
     layout: &Layout,
     (figured, passage): (&[usize], Option<(&Passage, f64)>),
     (shown, orbit): (&Shown<'_>, &Orbit),
-    (changed, banned): (Option<&Changed>, &[f64]),
+    (changed, banned): (Option<&Changed>, &[(usize, f64)]),
 ) {
     let painter = &painter.with_clip_rect(layout.rect.intersect(painter.clip_rect()));
     let mut place = Place::new(layout, shown, orbit);
     let column = shown.column();
-    let first = column.clock.place_from_koma(0);
-    let koma_of = |place: &f64| (place - first) / column.clock.frames_in_koma();
-    let banned = banned.iter().map(|place| (layout.time.x(koma_of(place)), *place));
+    let banned = banned.iter().map(|(koma, place)| (layout.x(*koma), *place));
     let gone = changed.iter().flat_map(|changed| &changed.gone);
     let gone = gone.map(|gone| (layout.x(gone.koma), gone.place));
     ghosts(painter, layout, &mut place, banned.chain(gone), shown);

@@ -82,6 +82,7 @@ fn same_koma(clip: &str, knobs: &[(&str, &str)]) -> (usize, usize) {
         chosen: 0,
         scene,
         wanted,
+        taken: &[],
         joints: &[],
         at: 0,
         counts_frames: false,
