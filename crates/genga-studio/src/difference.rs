@@ -68,10 +68,15 @@ pub(super) struct Difference {
 }
 
 impl Changed {
-    /// Whether the genga on a koma came or moved.
-    pub(super) fn has(&self, koma: usize) -> bool {
-        let moved = self.shifted.binary_search_by_key(&koma, |own| own.to);
-        self.came.binary_search(&koma).is_ok() || moved.is_ok()
+    /// Whether the genga on a koma came.
+    pub(super) fn has_new(&self, koma: usize) -> bool {
+        self.came.binary_search(&koma).is_ok()
+    }
+
+    /// How the genga on a koma moved. `None` if it did not.
+    pub(super) fn shift_to(&self, koma: usize) -> Option<Shifted> {
+        let at = self.shifted.binary_search_by_key(&koma, |own| own.to).ok()?;
+        Some(self.shifted[at])
     }
 }
 

@@ -152,7 +152,8 @@ impl<'a> Shown<'a> {
         let koma = column.clock.frames_in_koma();
         let is_its = |frame: &Frame| {
             let bans = edits.forbidden.iter().filter(|own| own.reaches(*frame, koma));
-            bans.min_by_key(|own| length(own)) == Some(&ban)
+            // Most genga are reached by no ban, and need no comparison.
+            ban.reaches(*frame, koma) && bans.min_by_key(|own| length(own)) == Some(&ban)
         };
         let seen =
             |frame: Frame| self.taken.iter().rfind(|own| (own.ban, own.frame) == (ban, frame));

@@ -26,12 +26,17 @@ pub(super) fn choose(
     let worth = |at: usize| match Some(at) {
         own if own == hovered => f64::INFINITY,
         own if own == current => f64::MAX,
-        _ if changed.is_some_and(|changed| changed.has(cells[at].koma)) => CHANGED,
+        _ if changed.is_some_and(|changed| is_in(changed, cells[at].koma)) => CHANGED,
         _ => worth(&cells[at]),
     };
     let marks: Vec<(usize, f32, f64)> =
         genga.map(|at| (at, layout.x(cells[at].koma), worth(at))).collect();
     fitting(&marks, layout.wide)
+}
+
+/// Whether the last change made or moved the genga on a koma.
+fn is_in(changed: &Changed, koma: usize) -> bool {
+    changed.has_new(koma) || changed.shift_to(koma).is_some()
 }
 
 /// How much a genga is worth to be seen.

@@ -187,11 +187,10 @@ enum Sign {
 impl Sign {
     /// The sign of the genga on a koma, and its koma before. `None` if it is as it was.
     fn of(koma: usize, changed: &Changed) -> Option<(Self, usize)> {
-        if changed.came.binary_search(&koma).is_ok() {
+        if changed.has_new(koma) {
             return Some((Self::Came, koma));
         }
-        let at = changed.shifted.binary_search_by_key(&koma, |own| own.to).ok()?;
-        let Shifted { from, to } = changed.shifted[at];
+        let Shifted { from, to } = changed.shift_to(koma)?;
         Some((if to > from { Self::Later } else { Self::Earlier }, from))
     }
 
