@@ -23,7 +23,7 @@ impl Table {
         self.drag(rect.center(), to);
     }
 
-    fn says(&self, text: &str) -> bool {
+    pub(crate) fn says(&self, text: &str) -> bool {
         self.harness.query_all_by_label_contains(text).next().is_some()
     }
 

@@ -173,6 +173,33 @@ fn a_ban_names_the_koma_on_which_its_genga_was_seen() {
 }
 
 #[test]
+fn where_a_foot_comes_down_the_strip_says_so() {
+    let mut table = Table::plain_kick();
+    let strip = table.strip();
+    let words = |table: &Table| {
+        let shapes = table.harness.output().shapes.iter();
+        let words = shapes.filter_map(|clipped| match &clipped.shape {
+            Shape::Text(text) if text.galley.text() == "contact" => {
+                Some(text.visual_bounding_rect().center())
+            }
+            _ => None,
+        });
+        words.filter(|at| strip.contains(*at)).collect::<Vec<Pos2>>()
+    };
+    let all = words(&table);
+    // Feet come down at genga 3, 4, 11 and 12. The contact at genga 6 has no room here.
+    assert_eq!(all.len(), 4);
+    for (at, genga) in all.iter().zip([2, 3, 10, 11]) {
+        let koma = table.genga()[genga] - 1;
+        let own = table.on_strip(koma, 0.0).x;
+        assert!((0.0..60.0).contains(&(at.x - own)), "{} after {own}", at.x);
+    }
+    table.harness.hover_at(all[2]);
+    table.harness.run();
+    assert!(table.says("The right foot stands still from koma 60"));
+}
+
+#[test]
 fn a_pin_says_which_genga_it_replaces_and_keeps_both() {
     let mut table = Table::plain_kick();
     let genga = table.genga();

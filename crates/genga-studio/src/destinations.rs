@@ -1,6 +1,6 @@
 //! Where an export goes (届け先): a card for each program or person, with what it writes and the next step there.
 
-use egui::{FontId, Grid, Response, Role, Sense, StrokeKind, Ui, WidgetInfo, vec2};
+use egui::{FontId, Grid, Response, RichText, Role, Sense, StrokeKind, Ui, WidgetInfo, vec2};
 
 use super::export_settings::Order;
 use super::words::Words;
@@ -157,6 +157,27 @@ pub(super) fn show(ui: &mut Ui, order: &mut Order, wants_focus: bool, words: Wor
                 ui.end_row();
             }
         }
+    });
+}
+
+/// Shows the next step at the destination of an order. The room is that of the longest, so that nothing below moves when
+/// another is chosen.
+pub(super) fn show_next(ui: &mut Ui, order: &Order, words: Words) {
+    let font = FontId::proportional(12.0);
+    let color = ui.visuals().weak_text_color();
+    let laid =
+        |text: &str| ui.painter().layout(text.into(), font.clone(), color, ui.available_width());
+    let said = |own: &Destination| words.say(own.next, own.next_japanese);
+    let highest = DESTINATIONS.iter().map(|own| laid(said(own)).size().y).fold(0.0, f32::max);
+    let none = words.say(
+        "Choose a card. The next step in that program is then told here.",
+        "カードを選ぶと、そのソフトでの次の手順をここに示す。",
+    );
+    let text = of(order).map_or(none, said);
+    let size = vec2(ui.available_width(), highest);
+    ui.allocate_ui(size, |ui| {
+        ui.set_min_height(highest);
+        ui.label(RichText::new(text).size(12.0).weak());
     });
 }
 

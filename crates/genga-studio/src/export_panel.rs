@@ -11,6 +11,7 @@ use super::focus::{self, Part};
 use super::host::Host;
 use super::knobs;
 use super::notice;
+use super::panels;
 use super::words::Words;
 use genga::recipe::Knob;
 use genga_files::{FORMATS, HAS_PIXELS};
@@ -21,7 +22,7 @@ const PAPER: &str = "xsheet";
 const FIGURES: &str = "figures";
 
 /// Height of everything above and below the formats in the panel, and the least height of the formats, in points.
-const ROOM: f32 = 152.0;
+const ROOM: f32 = 164.0;
 const LEAST_ROOM: f32 = 120.0;
 /// Width of the panel from which settings stand in two columns, in points.
 const WIDE: f32 = 600.0;
@@ -68,47 +69,58 @@ impl OrderPanel {
         words: Words,
         commands: &mut Vec<Command>,
     ) {
-        let Some(order) = &mut self.order else { return };
+        let Some(order) = &self.order else { return };
+        let is_asked = order.formats.is_empty() && std::mem::take(&mut self.wants_focus);
         ui.strong(words.say("Export: where does it go?", "書き出し: 届け先を選ぶ"));
         let window = ui.ctx().content_rect().size();
         let room = (window.y - notice::top(window) - ROOM).max(LEAST_ROOM);
-        // Reserves the full height. A notice gets the height of its last frame, and would otherwise grow frame by
-        // frame.
-        let scroll =
-            ScrollArea::vertical().id_salt("order").max_height(room).min_scrolled_height(room);
-        scroll.show(ui, |ui| {
-            let is_asked = order.formats.is_empty() && std::mem::take(&mut self.wants_focus);
-            destinations::show(ui, order, is_asked, words);
-            if let Some(destination) = destinations::of(order) {
-                let (next, japanese) = destination.next();
-                ui.label(RichText::new(words.say(next, japanese)).size(12.0).weak());
+        // A low window has room for one list alone.
+        let is_low = panels::is_low(window);
+        let list = |name, room| ScrollArea::vertical().id_salt(name).max_height(room);
+        let cards = list("order", room).min_scrolled_height(room).show(ui, |ui| {
+            if let Some(order) = &mut self.order {
+                destinations::show(ui, order, is_asked, words);
+                destinations::show_next(ui, order, words);
             }
-            let title = RichText::new(words.say("All formats", "すべての形式")).strong();
-            let header = CollapsingHeader::new(title).id_salt("all formats");
-            // An order for no destination is seen where it was made.
-            let is_own = !order.formats.is_empty() && destinations::of(order).is_none();
-            header.default_open(is_own).show_unindented(ui, |ui| {
-                formats(ui, order, &self.always, words);
-                settings(
-                    ui,
-                    order,
-                    |section| self.always.contains(&section) || section == FIGURES,
-                    words,
-                );
-            });
-            ui.separator();
-            ui.horizontal(|ui| {
-                ui.label(words.say("Figures seen from", "図の向き"));
-                camera(ui, order, words);
-            });
-            split(ui, layers, words, commands);
-            let own = order.formats.clone();
-            settings(ui, order, |section| own.contains(&section), words);
+            if is_low {
+                self.details(ui, layers, words, commands);
+            }
             focus::bring_into_view(ui);
         });
         ui.separator();
         ui.horizontal_wrapped(|ui| self.place(ui, words, commands));
         ui.horizontal(|ui| self.decide(ui, words, commands));
+        if !is_low {
+            // Below the button, which so stays where it is when a card brings settings of its own.
+            ui.separator();
+            let room = (room - cards.content_size.y).max(LEAST_ROOM);
+            list("details", room).min_scrolled_height(room).show(ui, |ui| {
+                self.details(ui, layers, words, commands);
+                focus::bring_into_view(ui);
+            });
+        }
+    }
+
+    /// Shows what need not be asked: single formats, the camera, layers, and the settings of what is ordered.
+    fn details(&mut self, ui: &mut Ui, layers: &str, words: Words, commands: &mut Vec<Command>) {
+        let Some(order) = &mut self.order else { return };
+        let title = RichText::new(words.say("All formats", "すべての形式")).strong();
+        let header = CollapsingHeader::new(title).id_salt("all formats");
+        // An order for no destination is seen where it was made.
+        let is_own = !order.formats.is_empty() && destinations::of(order).is_none();
+        header.default_open(is_own).show_unindented(ui, |ui| {
+            formats(ui, order, &self.always, words);
+            let is_always = |section: &str| self.always.contains(&section) || section == FIGURES;
+            settings(ui, order, is_always, words);
+        });
+        ui.separator();
+        ui.horizontal(|ui| {
+            ui.label(words.say("Figures seen from", "図の向き"));
+            camera(ui, order, words);
+        });
+        split(ui, layers, words, commands);
+        let own = order.formats.clone();
+        settings(ui, order, |section| own.contains(&section), words);
     }
 
     /// Shows the field for the folder or archive.

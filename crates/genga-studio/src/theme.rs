@@ -38,11 +38,16 @@ const fn gray(value: u8) -> Color32 {
     Color32::from_gray(value)
 }
 
-/// Gives egui's own grey words the colour of the studio's, which egui draws too pale to be read.
+/// Gives egui's own grey words the colour of the studio's, which egui draws too pale to be read, and a button with the
+/// keyboard the ground of every button: it has a ring, and on egui's darker ground grey words are lost.
 pub(super) fn dress(context: &Context) {
     for theme in [Theme::Light, Theme::Dark] {
         let faint = Look::from_theme(theme).faint;
-        context.style_mut_of(theme, |style| style.visuals.weak_text_color = Some(faint));
+        context.style_mut_of(theme, |style| {
+            style.visuals.weak_text_color = Some(faint);
+            let widgets = &mut style.visuals.widgets;
+            widgets.active.weak_bg_fill = widgets.inactive.weak_bg_fill;
+        });
     }
 }
 
@@ -231,6 +236,7 @@ mod tests {
             }
         }
     }
+
     #[test]
     fn grey_words_can_be_read_on_every_ground_in_both_themes() {
         let context = Context::default();
@@ -247,6 +253,7 @@ mod tests {
                 ("panel", visuals.panel_fill),
                 ("field", visuals.text_edit_bg_color()),
                 ("button", visuals.widgets.inactive.weak_bg_fill),
+                ("button with the keyboard", visuals.widgets.active.weak_bg_fill),
             ];
             for (name, ground) in grounds {
                 for (words, color) in [("grey", look.faint), ("usual", visuals.text_color())] {

@@ -1,6 +1,7 @@
-//! The standing feet (接地) on the strip: for each foot a bar for as long as it stands, in the colour of its side.
+//! The standing feet (接地) on the strip: for each foot a bar in the colour of its side for as long as it stands, and where
+//! it comes down the word contact beside the number of its genga.
 
-use egui::{Painter, Rangef, Response, Stroke};
+use egui::{Align2, FontId, Painter, Pos2, Rangef, Rect, Response, Stroke, pos2, vec2};
 
 use super::layout::Layout;
 use crate::scene::Stand;
@@ -11,27 +12,96 @@ use genga_plot::parts::BodySide;
 const WIDE: f32 = 2.0;
 const APART: f32 = 3.5;
 
-/// Draws the bars at the feet of the figures.
+/// Height of the bar's beginning where a foot comes down, in points.
+const LANDING: f32 = 6.0;
+/// Koma that a genga may stand from a contact and be its genga: its pose is the same to the eye.
+const NEAR: f32 = 1.5;
+/// Room of a number, and the distance of a word from the contact where there is none, in points.
+const NUMBER: f32 = 10.0;
+const BESIDE: f32 = 2.0;
+
+/// Draws the bars at the feet of the figures, and names the contacts.
 pub(super) fn draw(painter: &Painter, layout: &Layout, shown: &Shown<'_>) {
     for stand in stands(shown) {
         let stroke = Stroke::new(WIDE, shown.look.of_side(stand.side));
-        painter.hline(span(stand, layout, shown), y(stand, layout), stroke);
+        let (span, y) = (span(stand, layout, shown), y(stand, layout));
+        painter.hline(span, y, stroke);
+        if lands(stand, shown) {
+            painter.vline(span.min, y - LANDING..=y, stroke);
+        }
+    }
+    let (word, font) = (word(shown).0, FontId::proportional(10.0));
+    for (_, place) in contacts(layout, shown) {
+        // In the colour of the side such small letters would be hard to read.
+        let ink = shown.look.ink;
+        painter.text(place.center(), Align2::CENTER_CENTER, word, font.clone(), ink);
     }
 }
 
-/// Says of the bar under the pointer which foot stands.
+/// Says of the bar or the word under the pointer which foot stands, and from which koma.
 pub(super) fn explain(response: Response, layout: &Layout, shown: &Shown<'_>) -> Response {
     let Some(at) = response.hover_pos() else { return response };
     let is_there = |stand: &&Stand| {
         (at.y - y(stand, layout)).abs() <= 0.5 * APART && span(stand, layout, shown).contains(at.x)
     };
-    let Some(stand) = stands(shown).find(is_there) else { return response };
-    let words = shown.words;
-    response.on_hover_text_at_pointer(match stand.side {
-        BodySide::Left => words.say("The left foot stands still", "左足が止まって接地"),
-        BodySide::Right => words.say("The right foot stands still", "右足が止まって接地"),
-        BodySide::Trunk => words.say("A foot stands still", "足が止まって接地"),
+    let named = || contacts(layout, shown).into_iter().find(|(_, place)| place.contains(at));
+    let stand = stands(shown).find(is_there).or_else(|| named().map(|(stand, _)| stand));
+    let Some(stand) = stand else { return response };
+    let from = shown.named(shown.frame(stand.from));
+    response.on_hover_text_at_pointer(match (stand.side, shown.words.is_japanese()) {
+        (BodySide::Left, false) => format!("The left foot stands still from {from}"),
+        (BodySide::Right, false) => format!("The right foot stands still from {from}"),
+        (BodySide::Trunk, false) => format!("A foot stands still from {from}"),
+        (BodySide::Left, true) => format!("左足が{from}から止まって接地"),
+        (BodySide::Right, true) => format!("右足が{from}から止まって接地"),
+        (BodySide::Trunk, true) => format!("足が{from}から止まって接地"),
     })
+}
+
+/// The contacts in view that have room for their word, with its place: beside the number of the nearest genga.
+fn contacts<'a>(layout: &Layout, shown: &Shown<'a>) -> Vec<(&'a Stand, Rect)> {
+    let cells = &shown.column().cells[layout.seen(shown)];
+    let genga: Vec<f32> =
+        cells.iter().filter(|cell| cell.genga.is_some()).map(|cell| layout.x(cell.koma)).collect();
+    let mut landings: Vec<(&Stand, f32)> = stands(shown)
+        .filter(|stand| lands(stand, shown))
+        .map(|stand| (stand, span(stand, layout, shown).min))
+        .filter(|(_, x)| layout.rect.x_range().contains(*x))
+        .collect();
+    landings.sort_unstable_by(|a, b| a.1.total_cmp(&b.1));
+    let (wide, near) = (word(shown).1, NEAR * layout.koma());
+    let mut taken = f32::NEG_INFINITY;
+    let mut named = Vec::new();
+    for (stand, x) in landings {
+        let away = |own: &f32| (own - x).abs();
+        let own = genga.iter().copied().min_by(|a, b| away(a).total_cmp(&away(b)));
+        let own = own.filter(|own| away(own) <= near);
+        let (x, apart) = own.map_or((x, BESIDE), |own| (own, NUMBER));
+        let is_free = |from: f32| {
+            let touches = |own: &f32| *own > from - NUMBER && *own < from + wide + NUMBER;
+            from >= taken && !genga.iter().any(touches)
+        };
+        let beside = [x + apart, x - apart - wide];
+        if let Some(from) = beside.into_iter().find(|from| is_free(*from)) {
+            taken = from + wide + BESIDE;
+            let middle: Pos2 = pos2(from + 0.5 * wide, layout.badges);
+            named.push((stand, Rect::from_center_size(middle, vec2(wide, 2.0 * NUMBER))));
+        }
+    }
+    named
+}
+
+/// The word for a contact, and its width in points.
+fn word(shown: &Shown<'_>) -> (&'static str, f32) {
+    match shown.words.is_japanese() {
+        true => ("接地", 22.0),
+        false => ("contact", 38.0),
+    }
+}
+
+/// Whether the foot comes down there, and does not stand from the beginning.
+fn lands(stand: &Stand, shown: &Shown<'_>) -> bool {
+    stand.from > shown.column().clock.place_from_koma(0)
 }
 
 /// The stands of the source. A loop shows other times of it, and has none.
