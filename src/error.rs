@@ -84,7 +84,7 @@ pub enum Error {
         message: String,
     },
     /// Reading or writing a file failed.
-    #[error("{}: {source}", path.display())]
+    #[error("{}: {}", path.display(), refusal(source))]
     Io {
         /// Path of the file.
         path: PathBuf,
@@ -140,6 +140,39 @@ impl Error {
             _ => None,
         }
     }
+}
+
+/// Says in words why the system refused a file, and what to do, in place of its own words with a number. An error with a
+/// message of its own, or of another kind, keeps its words.
+///
+/// ```
+/// use std::io::{Error, ErrorKind};
+///
+/// let said = genga::error::refusal(&Error::from(ErrorKind::IsADirectory));
+/// assert_eq!(said, "is a folder; name a file");
+/// ```
+pub fn refusal(error: &io::Error) -> String {
+    use io::ErrorKind::{
+        AlreadyExists, InvalidFilename, IsADirectory, NotADirectory, NotFound, PermissionDenied,
+        QuotaExceeded, ReadOnlyFilesystem, StorageFull,
+    };
+    if error.get_ref().is_some() {
+        return error.to_string();
+    }
+    let words = match error.kind() {
+        NotFound => {
+            "there is no such file or folder; check its name, and the folder that you are in"
+        }
+        IsADirectory => "is a folder; name a file",
+        NotADirectory => "a part of this path is a file and no folder; check the path",
+        AlreadyExists => "is there already; name another",
+        PermissionDenied => "access is denied; change the permissions, or use another place",
+        ReadOnlyFilesystem => "the disk can only be read; write elsewhere",
+        StorageFull | QuotaExceeded => "the disk is full; make room, or write elsewhere",
+        InvalidFilename => "the name is too long for the file system; use a shorter one",
+        _ => return error.to_string(),
+    };
+    words.into()
 }
 
 /// A position in a motion or model file.
@@ -244,6 +277,23 @@ impl fmt::Display for Warning {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_system_is_quoted_only_where_there_are_no_better_words() {
+        use io::ErrorKind;
+        let io = |source: io::Error| Error::Io { path: "walk.bvh".into(), source }.to_string();
+        for (kind, says) in [
+            (ErrorKind::NotFound, "there is no such file"),
+            (ErrorKind::PermissionDenied, "access is denied; change the permissions"),
+            (ErrorKind::StorageFull, "the disk is full; make room"),
+            (ErrorKind::NotADirectory, "a part of this path is a file"),
+        ] {
+            let said = io(kind.into());
+            assert!(said.starts_with(&format!("walk.bvh: {says}")), "{said}");
+        }
+        assert_eq!(io(io::Error::new(ErrorKind::NotFound, "no ffmpeg")), "walk.bvh: no ffmpeg");
+        assert_eq!(io(ErrorKind::TimedOut.into()), "walk.bvh: timed out");
+    }
 
     #[test]
     fn a_name_is_suggested_only_if_it_is_similar() {

@@ -1442,3 +1442,61 @@ fn omit_writes_a_sheet_alone_and_a_caption_names_the_seed() {
     let caption = fs::read_to_string(place.path("a.md")).unwrap();
     assert!(caption.contains("noise.seed 0"), "{caption}");
 }
+
+#[test]
+fn what_the_system_refuses_is_said_in_words_with_a_way_out() {
+    let place = Place::new();
+    place.done("run data/kick.bvh --out kick");
+    fs::create_dir(place.path("folder")).unwrap();
+    fs::write(place.path("plain"), "").unwrap();
+    let missing = "there is no such file or folder; check its name, and the folder that you are in";
+    for args in [
+        "run none",
+        "keys none",
+        "inspect none",
+        "study none",
+        "eval none --clip data/kick.bvh",
+        "eval kick/sheet.json --clip none",
+        "compare data/kick.bvh none",
+        "deliver none data/kick.bvh --to xdts",
+        "run data/kick.bvh --recipe none",
+        "run data/kick.bvh --bones none",
+        "batch none --out library",
+        "batch @none --out library",
+        "batch --join none --out library",
+        "trial --read none",
+    ] {
+        let said = place.refused(1, args);
+        assert_eq!(said, format!("genga: none: {missing}\n"), "{args}");
+    }
+    let (folder, file) = ("is a folder; name a file", "is a file; name a folder");
+    for (args, says) in [
+        ("run data/kick.bvh --recipe folder", format!("folder: {folder}")),
+        ("eval folder --clip data/kick.bvh", format!("folder: {folder}")),
+        ("omit data/kick.bvh --out folder", format!("folder: {folder}")),
+        (
+            "omit data/kick.bvh --out none/a.bvh",
+            "none: there is no such folder; make it first".into(),
+        ),
+        ("run data/kick.bvh --out plain", format!("plain: {file}")),
+        ("run data/kick.bvh --out plain/deep", format!("plain: {file}")),
+        ("batch data/kick.bvh --out plain", format!("plain: {file}")),
+        ("batch data/kick.bvh --out plain/deep", format!("plain: {file}")),
+        (
+            "batch --join plain --out library",
+            "plain: a part of this path is a file and no folder; check the path".into(),
+        ),
+    ] {
+        assert_eq!(place.refused(1, args), format!("genga: {says}\n"), "{args}");
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_is_called_full() {
+    let place = Place::new();
+    let full = fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
+    let output = place.command(&words("keys data/kick.bvh")).stdout(full).output().unwrap();
+    let said = text(&output.stderr);
+    assert!(said.ends_with("stdout: the disk is full; make room, or write elsewhere\n"), "{said}");
+}

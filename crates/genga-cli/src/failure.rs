@@ -1,6 +1,7 @@
 //! Error messages and exit codes.
 
 use std::fmt;
+use std::io;
 use std::path::Path;
 
 use genga::error::{Error, Place};
@@ -31,6 +32,11 @@ impl Failure {
     /// Builds a failure about a file or folder, with its path in the message.
     pub(super) fn at(path: &Path, reason: impl fmt::Display) -> Self {
         Self::CouldNot(format!("{}: {reason}", path.display()))
+    }
+
+    /// Builds a failure of the system at a file or folder.
+    pub(super) fn io(path: &Path, source: io::Error) -> Self {
+        Error::Io { path: path.to_owned(), source }.into()
     }
 
     /// Builds a failure from an error in a file, with the file's path in the message.

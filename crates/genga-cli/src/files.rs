@@ -118,10 +118,10 @@ fn is_device(path: &Path) -> bool {
 /// Fails if a file cannot be written there.
 fn check_place(folder: &Path, path: &Path) -> Result<(), Failure> {
     if !folder.is_dir() {
-        return Err(failed(folder, io::Error::other("there is no such folder")));
+        return Err(failed(folder, io::Error::other("there is no such folder; make it first")));
     }
     if path.is_dir() {
-        return Err(failed(path, io::Error::other("is a folder")));
+        return Err(failed(path, io::ErrorKind::IsADirectory.into()));
     }
     Ok(())
 }

@@ -143,9 +143,7 @@ pub(super) struct Bundle<'a> {
 impl<'a> Bundle<'a> {
     /// Begins an empty bundle for a folder, which need not exist yet.
     pub(super) fn begin(folder: &'a Path) -> Result<Self, Failure> {
-        if let Some(file) = folder.ancestors().find(|above| above.is_file()) {
-            return Err(io_error(file, io::Error::other("is a file, not a folder")).into());
-        }
+        check_folder(folder)?;
         let is_there = folder.exists();
         // A run that was killed right after the folder appeared left its staging in the parent folder.
         sweep(folder.parent().map_or(Path::new("."), there));
@@ -167,11 +165,17 @@ impl<'a> Bundle<'a> {
     pub(super) fn add(&mut self, name: &str, bytes: impl AsRef<[u8]>) -> Result<(), Error> {
         let place = self.folder.join(name);
         if place.is_dir() {
-            return Err(io_error(&place, io::Error::other("is a folder")));
+            return Err(io_error(
+                &place,
+                io::Error::other("is a folder in the way of a file; move it"),
+            ));
         }
         let inside = Path::new(name).ancestors().skip(1).map(|inside| self.folder.join(inside));
         if let Some(file) = inside.into_iter().find(|inside| inside.is_file()) {
-            return Err(io_error(&file, io::Error::other("is a file, not a folder")));
+            return Err(io_error(
+                &file,
+                io::Error::other("is a file in the way of a folder; move it"),
+            ));
         }
         let staged = self.staging.place(name);
         let write = || {
@@ -210,6 +214,13 @@ fn there(folder: &Path) -> &Path {
     let is_there = |folder: &&Path| folder.as_os_str().is_empty() || folder.is_dir();
     let nearest = folder.ancestors().find(is_there).unwrap_or(folder);
     if nearest.as_os_str().is_empty() { Path::new(".") } else { nearest }
+}
+
+/// Fails if a file is in the way of a folder.
+pub(super) fn check_folder(folder: &Path) -> Result<(), Error> {
+    let file = folder.ancestors().find(|above| above.is_file());
+    let failed = |file| io_error(file, io::Error::other("is a file; name a folder"));
+    file.map_or(Ok(()), |file| Err(failed(file)))
 }
 
 /// Renames the staged folder to its final name.

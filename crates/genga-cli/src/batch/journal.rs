@@ -131,7 +131,7 @@ impl Journal {
     /// Opens and locks a journal for writing. An incomplete last line is cut off.
     fn held(path: &Path) -> Result<Self, Failure> {
         let file = OpenOptions::new().read(true).append(true).open(path);
-        let file = file.map_err(|error| Failure::at(path, error))?;
+        let file = file.map_err(|error| Failure::io(path, error))?;
         // On a file system without locks, a second batch goes unnoticed.
         if matches!(file.try_lock(), Err(TryLockError::WouldBlock)) {
             return Err(Failure::at(
@@ -140,18 +140,18 @@ impl Journal {
             ));
         }
         let journal = Self::new(path, file)?;
-        journal.file.set_len(journal.end).map_err(|error| Failure::at(path, error))?;
+        journal.file.set_len(journal.end).map_err(|error| Failure::io(path, error))?;
         Ok(journal)
     }
 
     /// Reads a journal. An incomplete last line is ignored.
     pub(crate) fn read(path: &Path) -> Result<Self, Failure> {
-        let file = File::open(path).map_err(|error| Failure::at(path, error))?;
+        let file = File::open(path).map_err(|error| Failure::io(path, error))?;
         Self::new(path, file)
     }
 
     fn new(path: &Path, file: File) -> Result<Self, Failure> {
-        let io = |error: io::Error| Failure::at(path, error);
+        let io = |error: io::Error| Failure::io(path, error);
         let mut lines = BufReader::new(&file);
         let mut text = String::new();
         let mut end = lines.read_line(&mut text).map_err(io)? as u64;
@@ -200,7 +200,7 @@ impl Journal {
             let line = str::from_utf8(&text).ok().and_then(unsealed);
             line.ok_or_else(|| io::Error::other("a line has changed while it was read"))
         });
-        line.map_err(|error| Failure::at(&self.path, error))
+        line.map_err(|error| Failure::io(&self.path, error))
     }
 
     /// A note on lines that do not count because somebody changed them; `None` if there are none.
@@ -216,7 +216,7 @@ impl Journal {
         let text = sealed(&line);
         let span = Span { begin: self.end, length: text.len() };
         let written = self.file.write_all(text.as_bytes());
-        written.map_err(|error| Failure::at(&self.path, error))?;
+        written.map_err(|error| Failure::io(&self.path, error))?;
         self.end += text.len() as u64;
         let Line { at, clip, file, asked, row, .. } = line;
         self.known.insert(clip, Known { at, span, file, asked, is_done: row.is_done() });

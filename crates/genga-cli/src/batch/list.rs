@@ -67,7 +67,7 @@ fn of_word(word: &str, walk: &mut Walk) -> Result<Vec<Named>, Failure> {
     if word == "-" {
         let mut bytes = Vec::new();
         let read = io::stdin().lock().read_to_end(&mut bytes);
-        read.map_err(|error| Failure::CouldNot(format!("stdin: {error}")))?;
+        read.map_err(|error| Failure::io(Path::new("stdin"), error))?;
         return lined(&bytes, Path::new("stdin"));
     }
     if let Some(list) = word.strip_prefix('@') {
@@ -82,7 +82,7 @@ fn of_word(word: &str, walk: &mut Walk) -> Result<Vec<Named>, Failure> {
     }
     match path.exists() {
         true => Ok(vec![(path.into(), vec![])]),
-        false => Err(Failure::CouldNot(format!("{word}: there is no such file or folder"))),
+        false => Err(Failure::io(path, io::ErrorKind::NotFound.into())),
     }
 }
 

@@ -95,7 +95,7 @@ impl Pack {
         let end = pack.files[SPOOL].take().map_or(0, |(_, end)| end);
         let open = || OpenOptions::new().read(true).append(true).create(true).open(&pack.spool);
         let file = open().and_then(|file| file.set_len(end).map(|()| file));
-        pack.files[SPOOL] = Some((file.map_err(|error| Failure::at(&pack.spool, error))?, end));
+        pack.files[SPOOL] = Some((file.map_err(|error| Failure::io(&pack.spool, error))?, end));
         Ok(pack)
     }
 
@@ -121,13 +121,13 @@ impl Pack {
         let file = match File::open(path) {
             Ok(file) => file,
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(()),
-            Err(error) => return Err(Failure::at(path, error)),
+            Err(error) => return Err(Failure::io(path, error)),
         };
         let (mut begin, mut entries) = (0, BufReader::new(&file));
-        let all = file.metadata().map_err(|error| Failure::at(path, error))?.len();
+        let all = file.metadata().map_err(|error| Failure::io(path, error))?.len();
         loop {
             let read = Entry::read(&mut entries, all - begin);
-            let Some((name, digest, entry)) = read.map_err(|error| Failure::at(path, error))?
+            let Some((name, digest, entry)) = read.map_err(|error| Failure::io(path, error))?
             else {
                 break;
             };
@@ -151,7 +151,7 @@ impl Pack {
     /// Appends a clip to the spool.
     pub(crate) fn add(&mut self, parcel: Parcel) -> Result<(), Failure> {
         let Some((file, end)) = &mut self.files[SPOOL] else { return Ok(()) };
-        file.write_all(&parcel.bytes).map_err(|error| Failure::at(&self.spool, error))?;
+        file.write_all(&parcel.bytes).map_err(|error| Failure::io(&self.spool, error))?;
         for (key, begin, entry) in parcel.entries {
             self.known.insert(key, Piece { file: SPOOL, begin: *end + begin, entry });
         }
@@ -196,7 +196,7 @@ impl Packing {
             let (end, directory) = (0, Directory::default());
             Ok(Self { place: place.into(), staging, file, end, directory })
         });
-        begun.map_err(|error| Failure::at(place, error))
+        begun.map_err(|error| Failure::io(place, error))
     }
 
     /// Copies the files of a clip from the part that has them.
@@ -217,7 +217,7 @@ impl Packing {
                 ))
             })?;
             self.directory.add(&called(clip, file), self.end, &piece.entry);
-            pack.copy(piece, &mut self.file).map_err(|error| Failure::at(&pack.archive, error))?;
+            pack.copy(piece, &mut self.file).map_err(|error| Failure::io(&pack.archive, error))?;
             self.end += piece.entry.length();
         }
         Ok(())
@@ -228,7 +228,7 @@ impl Packing {
         let Self { place, staging, file, end, directory } = &mut self;
         let written = file.write_all(&directory.close(*end)).and_then(|()| file.flush());
         let put = || fs::rename(staging.place("archive"), &*place);
-        written.and_then(|()| stop::undisturbed(put)).map_err(|error| Failure::at(place, error))
+        written.and_then(|()| stop::undisturbed(put)).map_err(|error| Failure::io(place, error))
     }
 }
 

@@ -63,7 +63,7 @@ impl Places<'_> {
         let failed = |error: io::Error| match is_too_long(&error) {
             // The clip's own fault, which becomes its row.
             true => Failure::AskedWrongly(too_long(&place)),
-            false => Failure::at(&place, error),
+            false => Failure::io(&place, error),
         };
         if place.exists() {
             let kept = self.kept(&place, come, before)?;

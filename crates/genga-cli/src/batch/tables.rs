@@ -67,14 +67,14 @@ pub(crate) fn write<'a>(
     journals: &[Journal],
     names: impl Iterator<Item = &'a str>,
 ) -> Result<Count, Failure> {
-    let io = |error: io::Error| Failure::at(out, error);
+    let io = |error: io::Error| Failure::io(out, error);
     let staging = Staging::within(out).map_err(io)?;
     let open = |name: &str| {
         File::create(staging.place(name)).map(BufWriter::new).map(csv::Writer::from_writer)
     };
     let [mut keys, mut times, mut summary] =
         [open(FILES[0]).map_err(io)?, open(FILES[1]).map_err(io)?, open(FILES[2]).map_err(io)?];
-    let csv = |error: csv::Error| Failure::at(out, error);
+    let csv = |error: csv::Error| Failure::io(out, error.into());
     summary.write_record(Row::HEADER).map_err(csv)?;
     times.write_record(TIMES).map_err(csv)?;
     let (mut count, mut has_header) = (Count::default(), false);

@@ -23,7 +23,7 @@ use crate::corrections::Corrections;
 use crate::failure::Failure;
 use crate::format_args::{FormatArgs, FormatName, Formats, help, long_help, shortened};
 use crate::plan::{PlanArgs, TargetArgs};
-use crate::staging::Staging;
+use crate::staging::{self, Staging};
 use crate::stop;
 use crate::{files, paths};
 use genga_files::Manifest;
@@ -97,7 +97,8 @@ const LEAST: u64 = 1 << 14;
 pub(super) fn run(args: &BatchArgs, words: &Words) -> Result<(), Failure> {
     paths::check_folder(Some(&args.out), "batch", "")?;
     if !args.list {
-        fs::create_dir_all(&args.out).map_err(|error| Failure::at(&args.out, error))?;
+        staging::check_folder(&args.out)?;
+        fs::create_dir_all(&args.out).map_err(|error| Failure::io(&args.out, error))?;
     }
     if args.list {
         return files::to_stdout(&list::written(&clips(args, words)?));
@@ -170,7 +171,7 @@ impl<'a> Batch<'a> {
         let sizes: Vec<u64> = items.iter().map(|item| item.size).collect();
         let shard = args.shard.unwrap_or_default();
         let list = Manifest::digest(names.join("\n").as_bytes());
-        let staging = Staging::within(&args.out).map_err(|error| Failure::at(&args.out, error))?;
+        let staging = Staging::within(&args.out).map_err(|error| Failure::io(&args.out, error))?;
         let header = Header::new(list, asked.digest.clone(), items.len(), shard);
         let journal = Journal::open(&args.out, header, &names)?;
         let pack = args
@@ -361,7 +362,7 @@ impl<'a> Batch<'a> {
 fn join(args: &BatchArgs, words: &Words) -> Result<(), Failure> {
     let (mut journals, mut packs) = (Vec::new(), Vec::new());
     for folder in &args.join {
-        let entries = fs::read_dir(folder).map_err(|error| Failure::at(folder, error))?;
+        let entries = fs::read_dir(folder).map_err(|error| Failure::io(folder, error))?;
         let mut files: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
         files.retain(|file| {
             file.file_name().is_some_and(|name| is_journal(&name.to_string_lossy()))

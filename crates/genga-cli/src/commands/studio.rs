@@ -147,10 +147,8 @@ mod shell {
     fn there_is(path: &Path) -> Result<(), Failure> {
         match path.try_exists() {
             Ok(true) => Ok(()),
-            Ok(false) => {
-                Err(Failure::CouldNot(format!("{}: there is no such file", path.display())))
-            }
-            Err(error) => Err(Failure::at(path, error)),
+            Ok(false) => Err(Failure::io(path, std::io::ErrorKind::NotFound.into())),
+            Err(error) => Err(Failure::io(path, error)),
         }
     }
 

@@ -239,7 +239,7 @@ fn put(folder: &Path, name: &str, text: &str) -> Result<PathBuf, Failure> {
             return Err(Failure::CouldNot(message));
         }
         Err(_) => {
-            fs::create_dir_all(folder).map_err(|error| Failure::at(folder, error))?;
+            fs::create_dir_all(folder).map_err(|error| Failure::io(folder, error))?;
             files::write(&path, text.as_bytes())?;
         }
     }
@@ -295,7 +295,7 @@ impl Recent {
         let text: String =
             lines.filter(|line| !line.contains('\n')).map(|line| line + "\n").collect();
         if let Some(folder) = file.parent() {
-            fs::create_dir_all(folder).map_err(|error| Failure::at(folder, error))?;
+            fs::create_dir_all(folder).map_err(|error| Failure::io(folder, error))?;
         }
         files::write(file, text.as_bytes())
     }
