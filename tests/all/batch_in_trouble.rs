@@ -204,3 +204,22 @@ fn a_full_disk_stops_a_batch_and_the_next_ends_as_if_undisturbed() {
         assert_eq!(results(&place, "full"), results(&place, "whole"));
     }
 }
+
+#[test]
+fn a_batch_that_cannot_begin_leaves_no_folder_behind() {
+    let place = Place::new();
+    fs::create_dir(place.path("empty")).unwrap();
+    for args in [
+        "batch none.bvh",
+        "batch empty",
+        "batch @none.txt",
+        "batch data/kick.bvh --deliver none",
+        "batch data/kick.bvh --set none=1",
+        "batch data/kick.bvh --bones none.toml",
+        "batch --join none",
+    ] {
+        let output = place.genga(&format!("{args} --out new/deep"));
+        assert_ne!(output.status.code(), Some(0), "{args}");
+        assert!(!place.path("new").exists(), "{args}: {}", text(&output.stderr));
+    }
+}

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::fs;
 use std::io::{Write, stdout};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use clap::{Args, ValueEnum};
@@ -96,13 +96,10 @@ const LEAST: u64 = 1 << 14;
 
 pub(super) fn run(args: &BatchArgs, words: &Words) -> Result<(), Failure> {
     paths::check_folder(Some(&args.out), "batch", "")?;
-    if !args.list {
-        staging::check_folder(&args.out)?;
-        fs::create_dir_all(&args.out).map_err(|error| Failure::io(&args.out, error))?;
-    }
     if args.list {
         return files::to_stdout(&list::written(&clips(args, words)?));
     }
+    staging::check_folder(&args.out)?;
     if args.shard.is_none() && !args.formats.over().is_forced {
         tables::check(&args.out)?;
     }
@@ -119,6 +116,11 @@ pub(super) fn run(args: &BatchArgs, words: &Words) -> Result<(), Failure> {
     batch.state().journal.note().iter().for_each(|note| words.say(note));
     batch.work(words)?;
     batch.close(args, words)
+}
+
+/// Makes the output folder, once nothing that was asked wrongly could leave it behind empty.
+fn make_folder(out: &Path) -> Result<(), Failure> {
+    fs::create_dir_all(out).map_err(|error| Failure::io(out, error))
 }
 
 /// Returns the clips that are named, and says which results of genga are not taken for clips.
@@ -171,6 +173,7 @@ impl<'a> Batch<'a> {
         let sizes: Vec<u64> = items.iter().map(|item| item.size).collect();
         let shard = args.shard.unwrap_or_default();
         let list = Manifest::digest(names.join("\n").as_bytes());
+        make_folder(&args.out)?;
         let staging = Staging::within(&args.out).map_err(|error| Failure::io(&args.out, error))?;
         let header = Header::new(list, asked.digest.clone(), items.len(), shard);
         let journal = Journal::open(&args.out, header, &names)?;
@@ -383,6 +386,7 @@ fn join(args: &BatchArgs, words: &Words) -> Result<(), Failure> {
     clips.sort();
     let of = journals.first().map_or(0, |journal| journal.header.clips);
     let names = || clips.iter().map(|(_, name)| name.as_str());
+    make_folder(&args.out)?;
     let count = tables::write(&args.out, &journals, names())?;
     if packs.iter().any(Pack::is_there) {
         pack::all(&args.out.join(ARCHIVE), &packs, &journals, names())?;
