@@ -30,3 +30,14 @@ fn every_setting_of_a_format_is_named_in_the_docs() {
         names.iter().filter(|name| !docs.contains(&format!("`{name}`"))).collect();
     assert!(missing.is_empty(), "{missing:?}");
 }
+
+/// Pages that a release has, which has no tests.
+#[test]
+fn a_test_named_on_a_page_of_a_release_is_said_to_be_in_the_source() {
+    for page in ["blender", "farm", "formats", "guide", "input", "pictures"] {
+        let text = fs::read_to_string(here(&format!("docs/{page}.md"))).unwrap();
+        for paragraph in text.split("\n\n").filter(|paragraph| paragraph.contains("`tests/")) {
+            assert!(paragraph.contains("source"), "{page}: {paragraph}");
+        }
+    }
+}
