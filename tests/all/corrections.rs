@@ -209,3 +209,17 @@ fn pins_of_a_real_clip_have_the_number_that_the_table_gives_them() {
         }
     });
 }
+
+#[test]
+fn a_hold_by_hand_is_not_drawn_as_koma_dori() {
+    let place = Place::new();
+    let rings = |folder: &str| {
+        let picture = text(&place.files(folder)["sheet.svg"]);
+        let drawn = picture.matches("fill=\"#ffffff\" stroke=\"#686e76\"").count();
+        (drawn, picture.contains("held by hand 手動の止め"))
+    };
+    place.done("run data/kick.bvh --out found");
+    assert_eq!(rings("found"), (1, false), "the legend alone");
+    place.done("run data/kick.bvh --hold 44:8 --out held");
+    assert_eq!(rings("held"), (1, true));
+}

@@ -11,7 +11,7 @@ use crate::chart::robust_top;
 use crate::legend::{CUT, Entry, LEFT_OUT, SPLIT};
 use crate::page_head;
 use crate::paper_point::Point;
-use crate::sheet::fate::row_before;
+use crate::sheet::fate::{BY_HAND, row_before};
 use crate::sheet::paper::{Band, LEFT, Paper, badges};
 use crate::style;
 use crate::title::Title;
@@ -85,7 +85,7 @@ impl SheetPlot {
         sheet.check()?;
         spaced.map_or(Ok(()), Sheet::check)?;
         let paper = self.paper(sheet, spaced, ssd);
-        let entries = self.entries(spaced.is_some(), paper.is_cut());
+        let entries = self.entries(spaced.is_some(), &paper);
         let width = f64::from(self.width);
         let clips = page_head::with_first_koma(&self.clip, sheet.blank);
         let words = "Timesheet タイムシート";
@@ -147,10 +147,11 @@ impl SheetPlot {
         }
     }
 
-    fn entries(&self, has_spaced: bool, is_cut: bool) -> Vec<Entry> {
+    fn entries(&self, has_spaced: bool, paper: &Paper<'_>) -> Vec<Entry> {
         let mut entries = LEGEND[..if has_spaced { 6 } else { 4 }].to_vec();
+        entries.extend(paper.is_held_by_hand().then_some(BY_HAND));
         entries.extend((!self.splits.is_empty()).then_some(SPLIT));
-        entries.extend(is_cut.then_some(CUT));
+        entries.extend(paper.is_cut().then_some(CUT));
         entries
     }
 }

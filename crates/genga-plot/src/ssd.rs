@@ -9,7 +9,7 @@ use crate::chart::{Axis, Plot, bar, number};
 use crate::drawings::shown;
 use crate::legend::{Entry, LEFT_OUT};
 use crate::paper_point::Point;
-use crate::sheet::fate::{Fate, fates};
+use crate::sheet::fate::{BY_HAND, Fate, fates, held_by_hand};
 use crate::style;
 use crate::title::Title;
 use genga::error::Error;
@@ -54,6 +54,12 @@ const LEGEND: [Entry; 4] = [
     ("a koma longer", |canvas, at| plus(canvas, at, 3.5)),
     ("own drawing", |canvas, (x, y)| canvas.rect((x - 2.0, y - 6.0), (x + 2.0, y + 6.0), OWN)),
 ];
+
+/// Returns the legend, with the sign of holds by hand only if there are some.
+fn legend(fates: &[Fate]) -> Vec<Entry> {
+    let by_hand = fates.contains(&Fate::HeldByHand).then_some(BY_HAND);
+    LEGEND.into_iter().chain(by_hand).collect()
+}
 
 /// The movement of a layer, koma by koma.
 pub struct Moves {
@@ -103,6 +109,7 @@ struct Paper<'a> {
     source: Moves,
     result: Moves,
     fates: Vec<Fate>,
+    legend: Vec<Entry>,
     koma: usize,
     /// Width of a koma, in px.
     slot: f64,
@@ -148,14 +155,17 @@ impl SsdPlot {
         let (source, result) =
             (Moves::new(clip, before, &screen), Moves::new(clip, after, &screen));
         let words = title(self.seen_from);
-        let top = Title { words, clips: "", legend: &LEGEND, width }.height() + ABOVE;
+        let fates = fates(before, after);
+        let legend = legend(&fates);
+        let top = Title { words, clips: "", legend: &legend, width }.height() + ABOVE;
         let most = source.largest().max(result.largest());
         let paper = Paper {
             seen_from: self.seen_from,
             charts: charts((width, height), top, (koma, second), most),
             source,
             result,
-            fates: fates(before, after),
+            fates,
+            legend,
             before,
             after,
             koma,
@@ -221,7 +231,8 @@ impl Paper<'_> {
             self.koma
         );
         let width = self.right() + style::MARGIN;
-        Title { words: title(self.seen_from), clips: &facts, legend: &LEGEND, width }.draw(canvas);
+        Title { words: title(self.seen_from), clips: &facts, legend: &self.legend, width }
+            .draw(canvas);
     }
 
     /// Builds a bar as high as the root of an SSD, with a small gap between koma.
@@ -235,7 +246,7 @@ impl Paper<'_> {
             let color = match self.fates[exposure.drawing] {
                 Fate::Stays => style::INBETWEEN,
                 Fate::LeftOut => style::GENGA,
-                Fate::Held => style::RAW,
+                Fate::Held | Fate::HeldByHand => style::RAW,
             };
             self.bar(koma, self.source.ssd[*begin], color)
         };
@@ -264,6 +275,7 @@ impl Paper<'_> {
             match self.fates[exposure.drawing] {
                 Fate::LeftOut => canvas.cross(sign, radius, style::GENGA, 1.5),
                 Fate::Held => canvas.ring(sign, 0.8 * radius, style::FAINT, 1.0),
+                Fate::HeldByHand => held_by_hand(canvas, sign, 0.8 * radius),
                 Fate::Stays => {
                     for more in 0..self.given(exposure.drawing) {
                         plus(canvas, (x, sign.1 + 2.4 * radius * more as f64), radius);

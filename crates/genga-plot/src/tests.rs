@@ -382,6 +382,30 @@ fn what_omission_took_is_marked_on_the_row_above() {
 }
 
 #[test]
+fn a_hold_by_hand_is_told_from_koma_dori() {
+    let spaced = Sheet::on_ones(sheet().clock, 6);
+    let mut now = spaced.clone();
+    let layer = &mut now.layers[0];
+    // A person holds drawing 1 in place of 2, and koma-dori holds 3 in place of 4.
+    layer.drawings.remove(4);
+    layer.drawings.remove(2);
+    layer.drawings[1].why.held_for = 1;
+    layer.drawings[1].why.hold_set = true;
+    layer.drawings[2].why.held_for = 1;
+    let koma = [1, 2, 2, 1].into_iter().enumerate();
+    layer.exposures = koma.map(|(drawing, koma)| Exposure { drawing, koma }).collect();
+    use Fate::{Held, HeldByHand, Stays};
+    let expected = [Stays, Stays, HeldByHand, Stays, Held, Stays];
+    assert_eq!(fates(&spaced.layers[0], &now.layers[0]), expected);
+    let svg = SheetPlot::default().draw(&now, Some(&spaced), None).unwrap();
+    assert_eq!(tags(&svg, "circle", "fill=\"#686e76\"").len(), 1 + 1, "and the legend's");
+    assert!(words(&svg).contains(&"held by hand 手動の止め"), "{:?}", words(&svg));
+    now.layers[0].drawings[1].why.hold_set = false;
+    let svg = SheetPlot::default().draw(&now, Some(&spaced), None).unwrap();
+    assert!(!words(&svg).contains(&"held by hand 手動の止め"), "nothing is held by hand");
+}
+
+#[test]
 fn a_pinned_genga_has_a_filled_number() {
     let mut sheet = sheet();
     let badges = |sheet: &Sheet, fill: &str| {

@@ -1,5 +1,9 @@
 //! Finds what omission did to the drawings of a sheet.
 
+use crate::canvas::Canvas;
+use crate::legend::Entry;
+use crate::paper_point::Point;
+use crate::style;
 use genga::sheet::{Drawing, Layer, Role};
 
 /// The fate of a drawing of the sheet before omission.
@@ -10,6 +14,17 @@ pub(crate) enum Fate {
     LeftOut,
     /// Replaced by a hold, by koma-dori.
     Held,
+    /// Replaced by a hold that a person set.
+    HeldByHand,
+}
+
+/// Legend entry of drawings under a hold that a person set.
+pub(crate) const BY_HAND: Entry =
+    ("held by hand 手動の止め", |canvas, at| held_by_hand(canvas, at, 3.25));
+
+/// Draws the sign of a drawing under a hold that a person set: filled, as the number of a pinned genga is.
+pub(crate) fn held_by_hand(canvas: &mut Canvas, at: Point, radius: f64) {
+    canvas.disc(at, radius, style::FAINT);
 }
 
 /// Returns koma, role and fate of each drawing that a layer had before omission.
@@ -22,20 +37,21 @@ pub(super) fn row_before(before: &Layer, now: &Layer) -> Vec<(usize, Role, Fate)
 }
 
 /// Returns the fate of each drawing. Drawings at the same place in the source count as the same. Of the
-/// drawings missing after one that stays, the first `held_for` were held by koma-dori, the others left out by
-/// naka-nashi.
+/// drawings missing after one that stays, the first `held_for` were held, by hand if a person set how long it
+/// stays and else by koma-dori. The others were left out by naka-nashi.
 pub(crate) fn fates(before: &Layer, now: &Layer) -> Vec<Fate> {
     let mut left = now.drawings.iter().peekable();
-    let mut held = 0;
+    let (mut held, mut by) = (0, Fate::Held);
     let fate = |drawing: &Drawing| {
         let place = drawing.source.place();
         while left.next_if(|next| next.source.place() < place - 1e-6).is_some() {}
         if let Some(same) = left.next_if(|next| next.source.place() <= place + 1e-6) {
             held = same.why.held_for;
+            by = if same.why.hold_set { Fate::HeldByHand } else { Fate::Held };
             Fate::Stays
         } else if held > 0 {
             held -= 1;
-            Fate::Held
+            by
         } else {
             Fate::LeftOut
         }

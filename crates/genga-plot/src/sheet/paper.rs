@@ -2,7 +2,7 @@
 
 use crate::canvas::{Align, Canvas, Type};
 use crate::chart::number;
-use crate::sheet::fate::Fate;
+use crate::sheet::fate::{Fate, held_by_hand};
 use crate::style;
 use genga::sheet::{Drawing, Exposure, Layer, Number, Role};
 
@@ -196,6 +196,12 @@ impl Paper<'_> {
         root.is_finite() && root > self.top
     }
 
+    /// Whether a hold that a person set replaces a drawing.
+    pub(super) fn is_held_by_hand(&self) -> bool {
+        let mut before = self.bands.iter().flat_map(|band| band.before.iter().flatten());
+        before.any(|(.., fate)| *fate == Fate::HeldByHand)
+    }
+
     /// Whether a glitch is cut off.
     pub(super) fn is_cut(&self) -> bool {
         self.roots.iter().flatten().any(|root| self.goes_on(*root))
@@ -245,6 +251,7 @@ impl Paper<'_> {
             }
             Fate::LeftOut => canvas.cross((x, middle), radius, style::GENGA, 1.5),
             Fate::Held => canvas.ring((x, middle), 0.8 * radius, style::FAINT, 1.0),
+            Fate::HeldByHand => held_by_hand(canvas, (x, middle), 0.8 * radius),
         }
     }
 
