@@ -65,7 +65,15 @@ impl Cleaning {
         let motion = frames(&clip);
         let is_open = trim.end <= whole.end || trim.end == usize::MAX;
         let end = if is_open { trim.end.min(motion.end) } else { trim.end };
-        Ok((clip.trimmed(Frame(trim.start.max(motion.start)), Frame(end))?, notes))
+        // An empty trim is refused in its own numbers.
+        let (start, end) = match trim.is_empty() {
+            true => (trim.start, trim.end),
+            false => (trim.start.max(motion.start), end),
+        };
+        if !trim.is_empty() && start >= end {
+            return Err(missed(trim, &motion));
+        }
+        Ok((clip.trimmed(Frame(start), Frame(end))?, notes))
     }
 
     /// Finds the ramps to remove. A kept inserted pose keeps its ramp at the origin too.
@@ -78,6 +86,17 @@ impl Cleaning {
             back: found.back.filter(|_| !is_kept(LeadIn::find_out(clip))),
         }
     }
+}
+
+/// The error of a trim that leaves no frame of the motion.
+fn missed(trim: &Range<usize>, motion: &Range<usize>) -> Error {
+    let end = if trim.end == usize::MAX { String::new() } else { trim.end.to_string() };
+    Error::clip(format!(
+        "cannot keep frames {}..{end}: the motion has frames {} to {}",
+        trim.start,
+        motion.start,
+        motion.end - 1
+    ))
 }
 
 /// A clip that is being cleaned.

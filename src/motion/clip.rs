@@ -260,9 +260,15 @@ impl Clip {
     /// [`Error::Clip`] if a bound lies outside the clip or the range is empty.
     pub fn trimmed(mut self, begin: Frame, end: Frame) -> Result<Self, Error> {
         let (first, past) = (self.first.0, self.first.0 + self.frames);
-        if begin >= end {
+        if begin > end {
+            let message = format!("cannot keep frames {begin}..{end}: it ends before it begins");
+            return Err(Error::clip(message));
+        }
+        if begin == end {
             return Err(Error::clip(format!(
-                "cannot keep frames {begin}..{end}: the range ends before it begins"
+                "cannot keep frames {begin}..{end}: it is empty, for the last number is not included; {begin}..{} is \
+                 one frame",
+                begin.0 + 1
             )));
         }
         if begin.0 < first || end.0 > past {

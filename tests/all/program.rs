@@ -1500,3 +1500,19 @@ fn a_full_disk_is_called_full() {
     let said = text(&output.stderr);
     assert!(said.ends_with("stdout: the disk is full; make room, or write elsewhere\n"), "{said}");
 }
+
+#[test]
+fn a_trim_without_frames_says_what_would_be_one() {
+    let place = Place::new();
+    for (trim, says) in [
+        ("5..5", "5..5: it is empty, for the last number is not included; 5..6 is one frame"),
+        ("0..0", "0..0: it is empty, for the last number is not included; 0..1 is one frame"),
+        ("9..2", "9..2: it ends before it begins"),
+        ("200..", "200..: the motion has frames 0 to 91"),
+        ("92..92", "92..92: it is empty, for the last number is not included; 92..93 is one frame"),
+        ("80..93", "80..93: the clip has frames 0 to 91"),
+    ] {
+        let said = place.refused(2, &format!("inspect data/kick.bvh --trim {trim}"));
+        assert_eq!(said, format!("genga: --trim: cannot keep frames {says}\n"));
+    }
+}
