@@ -110,9 +110,9 @@ pub struct Pull {
 knobs!(spacing::Spacing {
     on: knob(
         "何コマ打ち",
-        "Koma per drawing: 1 is on ones, 2 on twos, 3 on threes. 2-3 chooses for each drawing: \
-         fast movement on twos, slow movement on threes (打ち分け). 1-3 also uses ones.",
-        "一枚を何コマ見せるか。1は1コマ打ち、2は2コマ打ち、3は3コマ打ち。2-3は一枚ごとに選び、\
+        "Koma per drawing: 1 is on ones, 2 on twos, 3 on threes, where genga leave room. 2-3 chooses \
+         for each drawing: fast movement on twos, slow movement on threes (打ち分け). 1-3 also uses ones.",
+        "一枚を何コマ見せるか。1は1コマ打ち、2は2コマ打ち、3は3コマ打ち（原画の間隔が許す所で）。2-3は一枚ごとに選び、\
          速いところは2コマ、遅いところは3コマ（打ち分け）。1-3は1コマも使う。",
     )
     .unit("koma, 1 (ones) to 1000, or the fewest and the most (\"2-3\")"),
