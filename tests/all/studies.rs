@@ -148,8 +148,7 @@ fn a_caption_has_the_command_and_a_recipe_that_gives_the_same_table() {
     let args = format!("study data/kick.bvh data/pitch.bvh {study} --plot p.svg --caption c.md");
     let table = place.done(&args);
     let caption = fs::read_to_string(place.path("c.md")).unwrap();
-    let begin =
-        "**turns of the body** (全身の変わり目), a second of its clip, over `turns.persistence`";
+    let begin = "**turns of the whole body** (全身の変わり目), a second of its clip, over `turns.persistence`";
     assert!(caption.starts_with(begin), "{caption}");
     assert!(caption.contains("| kick | 3.83 |\n| pitch | "), "{caption}");
     let inside = |fence: &str| {
@@ -179,13 +178,13 @@ fn a_caption_has_the_command_and_a_recipe_that_gives_the_same_table() {
 fn what_the_axes_can_change_is_drawn_unless_it_is_said() {
     let place = Place::new();
     for (axes, title) in [
-        ("--x filter.width=0.1s,0.2s", "Turns of the body"),
+        ("--x filter.width=0.1s,0.2s", "Turns of the whole body"),
         ("--filter-width 10,20 --persistence 5,10", "Frames with a key of any"),
         ("--x turns.persistence=5,10 --y filter.width=10,20", "Frames with a key of any"),
         ("--x filter.width=10,20 --y turns.persistence=5,10 --stability", "Genga  原画"),
         ("--x keys.per_second=2,4", "Genga  原画"),
         ("--x filter.width=0.1s,0.2s --y spacing.on=2,3", "Drawings on the sheet"),
-        ("--x keys.per_second=2,4 --show turns", "Turns of the body"),
+        ("--x keys.per_second=2,4 --show turns", "Turns of the whole body"),
         ("--x filter.width=10,20 --y turns.persistence=5,10 --paper", "Frames with a key of any"),
     ] {
         place.done(&format!("study data/kick.bvh {axes} --plot p.svg -q"));
@@ -356,4 +355,18 @@ fn what_is_asked_wrongly_is_said_before_any_work() {
         assert!(said.contains(says), "{args}: {said}");
         assert!(!place.path("s.csv").exists(), "{args}");
     }
+}
+
+#[test]
+fn turns_of_the_body_are_told_from_those_of_the_joints() {
+    let place = Place::new();
+    let counted = |args: &str| {
+        let said = place.said(&format!("study data/kick.bvh --x filter.width=10 {args}"));
+        said.lines().find(|line| line.starts_with("turns ")).map(str::to_owned)
+    };
+    let says = "turns       変わり目   turns: of the body; union, total: keys of joints (in report.json \
+                turns.union, turns.total)";
+    assert_eq!(counted("").as_deref(), Some(says));
+    assert_eq!(counted("--measure turns,genga"), None, "nothing to confuse it with");
+    assert_eq!(counted("--measure union,total"), None);
 }

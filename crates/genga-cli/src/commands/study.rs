@@ -180,6 +180,9 @@ pub(super) fn run(args: &StudyArgs, words: &Words) -> Result<(), Failure> {
     };
     words.say(format_args!("recipe      設定       {begins}"));
     seconds::lines(&study, &rates).iter().for_each(|line| words.say(line));
+    if tells_turns_apart(&study.measures) {
+        words.say(TURNS);
+    }
     if let Some(plateaus) = plateaus {
         say_plateaus(words, &names, &grids, &plateaus);
     }
@@ -189,6 +192,16 @@ pub(super) fn run(args: &StudyArgs, words: &Words) -> Result<(), Failure> {
         words.say(format_args!("files       {}", files.join(" ")));
     }
     Ok(())
+}
+
+/// What is said of turns, for the report of a run calls those of the joints `turns` too.
+const TURNS: &str = "turns       変わり目   turns: of the body; union, total: keys of joints \
+                     (in report.json turns.union, turns.total)";
+
+/// Whether turns of the body and turns of the joints are columns of one table.
+fn tells_turns_apart(measures: &[Measure]) -> bool {
+    let has = |measure| measures.contains(&measure);
+    has(Measure::Turns) && (has(Measure::Union) || has(Measure::Total))
 }
 
 /// Regions of settings with identical keys, and with nearly identical keys, of all clips.

@@ -120,7 +120,7 @@ impl Measure {
         match self {
             Self::Union => ("frames with a key of any joint", "いずれかの関節の候補があるフレーム"),
             Self::Total => ("sum of the keys of all joints", "全関節の候補の合計"),
-            Self::Turns => ("turns of the body", "全身の変わり目"),
+            Self::Turns => ("turns of the whole body", "全身の変わり目"),
             Self::Genga => ("genga", "原画"),
             Self::Fills => ("genga that are not turns", "補いの原画"),
             Self::Drawings => ("drawings on the sheet", "動画枚数"),

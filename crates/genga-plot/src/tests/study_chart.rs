@@ -151,7 +151,7 @@ fn clips_of_other_lengths_compare_by_the_second() {
     let clips = [clip(6.0, 2.0), clip(60.0, 20.0)];
     let plot = StudyPlot { per_second: true, ..StudyPlot::default() };
     let svg = curves_of(&plot, &clips).unwrap();
-    let title = "Turns of the body a second  毎秒の全身の変わり目";
+    let title = "Turns of the whole body a second  毎秒の全身の変わり目";
     assert!(words(&svg).contains(&title));
     assert!(words(&svg).contains(&format!("{title} (1/s)").as_str()));
     // All three lines coincide.
