@@ -138,6 +138,7 @@ impl Clip {
         metres: Option<f64>,
         name: &str,
     ) -> PyResult<Self> {
+        named(py, name)?;
         let places = match (root, translations) {
             (Some(places), None) | (None, Some(places)) => places,
             (Some(_), Some(_)) => {
@@ -354,6 +355,19 @@ fn axis(py: Python<'_>, name: &str) -> PyResult<Axis> {
     axis.ok_or_else(|| asked_wrongly(py, format!("up is x, y or z, not {name}")))
 }
 
+/// Refuses a name that is no file name on every system.
+fn named(py: Python<'_>, name: &str) -> PyResult<()> {
+    let is_file = Path::new(name).file_name().is_some_and(|file| file == name);
+    match is_file && !name.contains('\\') {
+        true => Ok(()),
+        false => {
+            let message =
+                format!("expected a name without folders, as in \"kick\", found {name:?}");
+            Err(raised(py, genga::Error::setting("name", message)))
+        }
+    }
+}
+
 fn unpickled(error: &dyn Error) -> PyErr {
     PyValueError::new_err(error.to_string())
 }
@@ -398,6 +412,7 @@ pub fn read(
     keep_glitches: bool,
     trim: Option<(usize, usize)>,
 ) -> PyResult<Clip> {
+    name.as_deref().map_or(Ok(()), |name| named(py, name))?;
     let rate = |rate: Option<f64>| rate.map(FrameRate::new).transpose();
     let fps = rate(fps).map_err(|error| raised(py, error))?;
     let options = file::Options { strict, repair, fps, root, take, ..file::Options::default() };

@@ -156,6 +156,16 @@ def test_what_a_clip_says_of_itself_is_what_it_was_made_of(clip):
         genga.Clip(**{**arrays_of(clip), "up": "w"})
 
 
+@pytest.mark.parametrize("name", ["a/b", "../../b", "a\\b", "/b", "..", ".", ""])
+def test_nothing_is_written_outside_of_the_folder(name, clip, tmp_path):
+    for make in (lambda: genga.Clip(**{**arrays_of(clip), "name": name}), lambda: genga.read(KICK, name=name)):
+        with pytest.raises(genga.Error, match="^name: expected a name without folders"):
+            make()
+    out = tmp_path / "a" / "out"
+    for path in genga.run(clip, name=name).write(out, "json", "xdts", "cut"):
+        assert out in Path(os.path.normpath(path)).parents, path
+
+
 def test_joints_that_travel_and_tips_are_kept(clip):
     hips = 1
     travels = np.tile(clip.offsets, (len(clip), 1, 1))

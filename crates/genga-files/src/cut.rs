@@ -38,7 +38,8 @@ impl Cut<'_> {
     }
 
     /// Makes a file name by putting the cut's name in place of `CUT`. Characters that are not allowed in file names
-    /// on every system become `_`. A cut without a name is called `cut`.
+    /// on every system become `_`, and so do the dots of `.` and `..`, which are folders. A cut without a name is called
+    /// `cut`.
     pub fn file_of(cut: &str, pattern: &str) -> String {
         let letter = |letter: char| match letter {
             '/' | '\\' | ':' | '*' | '?' | '"' | '<' | '>' | '|' => '_',
@@ -49,6 +50,7 @@ impl Cut<'_> {
         let stem = name.split('.').next().unwrap_or_default().trim_end();
         let name = match stem {
             _ if name.is_empty() => "cut".into(),
+            _ if name.chars().all(|letter| letter == '.') => "_".repeat(name.len()),
             stem if is_device(stem) => format!("{stem}_{}", &name[stem.len()..]),
             _ => name,
         };
@@ -75,6 +77,9 @@ mod tests {
             ("カット1", "カット1.vmd"),
             ("a:b*c/d\u{7}", "a_b_c_d_.vmd"),
             ("", "cut.vmd"),
+            (".", "_.vmd"),
+            (" ..", "__.vmd"),
+            ("../..", ".._...vmd"),
             (" ", "cut.vmd"),
             ("con", "con_.vmd"),
             ("COM1.take.2", "COM1_.take.2.vmd"),
