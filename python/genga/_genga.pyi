@@ -247,6 +247,8 @@ def read(
     fps: Optional[float] = None,
     root: Optional[str] = None,
     take: Optional[str] = None,
+    up: Optional[str] = None,
+    skeleton: Union[str, PathLike[str], None] = None,
     repair: bool = False,
     strict: bool = False,
     keep_lead_in: bool = False,

@@ -382,7 +382,12 @@ pub fn taken<'py>(source: &Bound<'py, PyAny>) -> PyResult<Bound<'py, Clip>> {
         let kind = source.get_type();
         PyTypeError::new_err(format!("expected a genga.Clip, a path or bytes, not {kind}"))
     });
-    Bound::new(py, self::read(py, read?, None, None, None, None, false, false, false, false, None)?)
+    Bound::new(
+        py,
+        self::read(
+            py, read?, None, None, None, None, None, None, false, false, false, false, None,
+        )?,
+    )
 }
 
 /// The argument of `read`: a path or the file's bytes.
@@ -394,10 +399,13 @@ pub enum Given<'py> {
 
 /// Reads a motion file of any supported format, from a path or from its bytes, as the program does. Removes a T-pose
 /// before or after the motion unless `keep_lead_in`. Unless `keep_glitches`, replaces single frames that fly off, and
-/// removes ends in which the tracker comes from the origin. `trim=(A, B)` keeps frames A to B, without B. `fps`,
-/// `root`, `take`, `repair` and `strict` are the program's options.
+/// removes ends in which the tracker comes from the origin. `trim=(A, B)` keeps frames A to B, without B. `name` is the
+/// clip's name. `fps` replaces the rate of the file. `root` is the root of the one tree of joints to read, `take` the
+/// take of a file with several. `up` is the axis that points up ("x", "y", "z"). `skeleton` is the path of the model of
+/// a VMD (PMX, PMD), or of the ASF of an AMC. `repair` replaces a value of a BVH that is no number by the one before
+/// it. `strict` raises the first warning as an error.
 #[pyfunction]
-#[pyo3(signature = (source, *, name=None, fps=None, root=None, take=None, repair=false, strict=false, keep_lead_in=false, keep_glitches=false, trim=None))]
+#[pyo3(signature = (source, *, name=None, fps=None, root=None, take=None, up=None, skeleton=None, repair=false, strict=false, keep_lead_in=false, keep_glitches=false, trim=None))]
 #[expect(clippy::too_many_arguments, reason = "each has a name in Python")]
 pub fn read(
     py: Python<'_>,
@@ -406,6 +414,8 @@ pub fn read(
     fps: Option<f64>,
     root: Option<String>,
     take: Option<String>,
+    up: Option<&str>,
+    skeleton: Option<PathBuf>,
     repair: bool,
     strict: bool,
     keep_lead_in: bool,
@@ -415,7 +425,9 @@ pub fn read(
     name.as_deref().map_or(Ok(()), |name| named(py, name))?;
     let rate = |rate: Option<f64>| rate.map(FrameRate::new).transpose();
     let fps = rate(fps).map_err(|error| raised(py, error))?;
-    let options = file::Options { strict, repair, fps, root, take, ..file::Options::default() };
+    let up = up.map(|name| axis(py, name)).transpose()?;
+    let options =
+        file::Options { strict, repair, fps, root, take, up, skeleton, ..file::Options::default() };
     let (path, bytes) = match source {
         Given::Path(path) => (Some(path), Vec::new()),
         // The bytes are copied, because the work goes on without the lock that keeps them alive.

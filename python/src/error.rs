@@ -26,7 +26,7 @@ pub fn raised_of(py: Python<'_>, error: genga::Error, file: Option<&Path>) -> Py
         return match source.raw_os_error() {
             // Python picks the subclass, such as FileNotFoundError, by the number.
             Some(number) => PyOSError::new_err((number, source.to_string(), path)),
-            None => PyOSError::new_err(error.to_string()),
+            None => PyOSError::new_err(in_python(&error.to_string())),
         };
     }
     let place = error.position();
@@ -55,25 +55,63 @@ pub fn raised_of(py: Python<'_>, error: genga::Error, file: Option<&Path>) -> Py
     }
 }
 
-/// Replaces options of the program that are arguments of `read`, and its help.
-pub fn in_python(message: &str) -> String {
-    let message = message.replace(
+/// What messages say of the program's commands and options, and what Python has in their place: nothing if it has none.
+const IN_PYTHON: [(&str, &str); 26] = [
+    (
         "`genga run --help` lists them and the options",
         "genga.knobs() lists them, and help() of the function its arguments",
-    );
-    let argument = |name: &str| name.replace('-', "_");
-    let message =
-        ["repair", "keep-lead-in", "keep-glitches"].iter().fold(message, |message, name| {
-            message.replace(&format!("--{name}"), &format!("{}=True", argument(name)))
-        });
-    ["fps", "root", "take", "trim"]
+    ),
+    (
+        "genga split --cycles lists the best rounds of a take, and --trim A..B takes one",
+        "Clip.cycles() lists the best rounds of a take, and Clip.cleaned(trim=(A, B)) takes one",
+    ),
+    ("; genga inspect tells more", ""),
+    ("--loop makes one, in a recipe loop = true", "loop=True makes one"),
+    ("without --loop", "without loop"),
+    ("(see --layers)", "(see the setting layers)"),
+    (
+        "name one with --within",
+        "name one, as in passages=[{\"frames\": [120, 240], \"spacing\": {\"on\": 1}}]",
+    ),
+    ("max-error: ", "max_error: "),
+    ("drawings-per-second: ", "drawings_per_second: "),
+    (
+        "; a file of bones says which (--bones)",
+        "; genga.Clip takes other names of the joints, by which they are known",
+    ),
+    (" ([extra] in a file of bones takes it up: --bones)", ""),
+    (" (--bones names joints)", " (genga.Clip takes other names of the joints)"),
+    (", which were taken (--bones)", ", which were taken"),
+    ("(--up y, --up z)", "(up=\"y\", up=\"z\")"),
+    (", and this with --camera-work", ""),
+    ("and this with --skeleton", "and this as skeleton"),
+    ("--skeleton ", "skeleton="),
+    ("; --memory GIB allows more", ""),
+    ("--keep-lead-in", "keep_lead_in=True"),
+    ("--keep-glitches", "keep_glitches=True"),
+    ("--repair", "repair=True"),
+    ("--fps ", "fps "),
+    ("--root ", "root "),
+    ("--take ", "take "),
+    ("--trim ", "trim "),
+    (", or allow more with --memory GIB", ""),
+];
+
+/// Replaces commands and options of the program by what Python has.
+pub fn in_python(message: &str) -> String {
+    let message = IN_PYTHON
         .iter()
-        .fold(message, |message, name| message.replace(&format!("--{name} "), &format!("{name} ")))
+        .fold(message.to_owned(), |message, (option, own)| message.replace(option, own));
+    // The last way out, which Python has not: so many GiB.
+    match message.split_once(", --memory ") {
+        Some((before, _)) => before.into(),
+        None => message,
+    }
 }
 
 /// Issues a Python warning at the caller's line.
 pub fn warned(py: Python<'_>, message: impl ToString) -> PyResult<()> {
-    let message = CString::new(message.to_string().replace('\0', " "))?;
+    let message = CString::new(in_python(&message.to_string()).replace('\0', " "))?;
     PyErr::warn(py, &py.get_type::<PyUserWarning>(), &message, 1)
 }
 

@@ -53,9 +53,12 @@ impl Recipe {
     }
 }
 
-/// Whether there is no such setting. A joint's weight and a setting of a layer or a passage have no knob of their own.
+/// Whether there is no such setting. A joint's weight, passages and a setting of a layer have no knob of their own.
 fn is_unknown(name: &str) -> bool {
-    !name.contains('/') && !name.starts_with("keys.weights.") && Knob::find(name).is_err()
+    !name.contains('/')
+        && name != "passages"
+        && !name.starts_with("keys.weights.")
+        && Knob::find(name).is_err()
 }
 
 /// Builds the exception of an unknown argument of a function of the package.

@@ -198,7 +198,7 @@ macro_rules! hand_over {
         #[pymethods]
         impl Result {$(
             #[doc = $what]
-            #[doc = " Returns a dict from file names to bytes; settings are those of the program's `--with`."]
+            #[doc = " Returns a dict from file names to bytes. Settings of formats are as in `csv={\"bom\": True}`; a wrong name lists all."]
             #[pyo3(signature = (**settings))]
             fn $name<'py>(&self, py: Python<'py>, settings: Option<&Bound<'py, PyDict>>) -> PyResult<Bound<'py, PyDict>> {
                 self.dict(py, $format, settings)
@@ -368,7 +368,8 @@ impl Result {
         Begun { clip, engine, settings: asked, targets, cut }.done(py)
     }
 
-    /// Writes files of the given formats into a folder, which it creates. Returns their paths.
+    /// Writes files of the given formats (`genga.formats()` lists them) into a folder, which it creates. Returns their
+    /// paths. Settings of formats are as in `csv={"bom": True}`; a wrong name lists all.
     #[pyo3(signature = (folder, *formats, **settings))]
     fn write(
         &self,

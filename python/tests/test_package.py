@@ -7,6 +7,7 @@ import math
 import multiprocessing
 import os
 import pickle
+import re
 import signal
 import struct
 import subprocess
@@ -267,9 +268,9 @@ def test_the_notes_of_a_report_are_those_of_the_program(path, keys, corrections,
     told = json.loads((tmp_path / "program" / "report.json").read_text(encoding="utf-8"))
     own = dict(moves=[(3, 33)], forbid=[4], holds=[(4, 9)]) if corrections else {}
     result = genga.run(path, targets={"keys": keys}, **own)
-    notes = [note.replace("--keep-lead-in", "keep_lead_in=True") for note in told["notes"]]
+    notes = [in_python(note) for note in told["notes"]]
     assert result.report["notes"] == notes and says in " ".join(notes)
-    assert not any("--keep" in note or "--pin" in note or "--hold" in note for note in result.report["notes"])
+    assert not any("--" in note for note in result.report["notes"])
     assert pickle.loads(pickle.dumps(result)).report == result.report
 
 
@@ -468,6 +469,52 @@ def test_options_of_the_program_are_told_as_arguments():
         genga.read(text.replace(row, row.replace(row.split()[5], "nan", 1)).encode())
     with pytest.raises(genga.Error, match="; fps "):
         genga.read("\n".join("Frame Time: 24" if "Frame Time" in line else line for line in text.splitlines()).encode())
+
+
+def in_python(text):
+    """Any text as an error of the package tells it: an axis that is none."""
+    arrays = dict(names=["a"], parents=[-1], offsets=np.zeros((1, 3)), root=np.zeros((1, 3)), rate=24.0)
+    with pytest.raises(genga.Error) as raised:
+        genga.Clip(**arrays, rotations=np.array([[[0.0, 0.0, 0.0, 1.0]]]), up=text)
+    return str(raised.value).removeprefix("up is x, y or z, not ")
+
+
+def messages_with_options():
+    """All text in the library that names an option of the program, but that of work that Python does not do."""
+    of_the_program = ["mp4", "marked", "into", "pins", "retimed", "blank"]
+    places = [ROOT / "src", *(ROOT / "crates" / f"genga-{name}" / "src" for name in ("files", "lab", "read"))]
+    for path in sorted(path for place in places for path in place.rglob("*.rs")):
+        if "tests" in str(path) or {path.stem, path.parent.name} & {*of_the_program}:
+            continue
+        text = path.read_text(encoding="utf-8").split("#[cfg(test)]")[0]
+        text = re.sub(r"\\\n\s*", "", re.sub(r"(?m)^\s*//.*$", "", text))
+        for message in re.findall(r'"((?:[^"\\\n]|\\.)*)"', text):
+            if re.search(r"--[a-z]|`genga |genga [a-z]+ --|genga inspect", message) and not message.startswith("as --"):
+                yield path, message
+
+
+def test_no_message_names_an_option_of_the_program():
+    found = list(messages_with_options())
+    assert len(found) > 30
+    for path, message in found:
+        told = in_python(message)
+        assert not re.search(r"--[a-z]|`genga |genga inspect|genga split", told), (path.name, told)
+
+
+def test_the_way_out_of_a_message_is_there(clip, tmp_path):
+    passages = [{"frames": [20, 40], "spacing": {"on": 1}}]
+    assert "frames = [20, 40]" in genga.run(clip, passages=passages, outside="source").recipe.to_toml()
+    with pytest.raises(genga.Error, match="outside: .* as in passages="):
+        genga.run(clip, outside="source")
+    with pytest.raises(genga.Error, match="^passages: (?!there is no such setting)"):
+        genga.run(clip, passages=[{"spacing": {"on": 1}}])
+    with pytest.raises(genga.Error, match="^cycles: .*; loop=True makes one$"):
+        genga.run(clip, cycles=2)
+    with pytest.raises(genga.Error, match=r"^max_error: must be above 0"):
+        genga.run(clip, targets={"max_error": -1})
+    assert genga.read(KICK, up="z").up == "z" and genga.read(KICK).up is None
+    with pytest.raises(FileNotFoundError, match="none.pmx"):
+        genga.read(genga.run(clip).to_vmd()["kick.vmd"], skeleton=tmp_path / "none.pmx")
 
 
 def test_wrong_arrays_are_refused_in_words(clip):
