@@ -1,7 +1,8 @@
 //! A recipe as a mapping with the names of its TOML.
 
 use genga::edits::Edits;
-use genga::recipe::{Knob, Recipe as Settings, unknown_beside};
+use genga::error::{Error, did_you_mean};
+use genga::recipe::{KNOBS, Knob, Recipe as Settings, unknown_beside};
 use genga_lab::study::{Noise, table_1_recipe};
 use pyo3::exceptions::PyKeyError;
 use pyo3::prelude::*;
@@ -10,6 +11,7 @@ use pyo3::types::{PyDict, PyType};
 use crate::corrections::Corrections;
 use crate::error::raised;
 use crate::pickle::Reduced;
+use crate::targets::TARGETS;
 use crate::words::{settings, value, word};
 
 /// All settings of the chain, and a person's corrections. A mapping whose keys are the names in the recipe file
@@ -53,6 +55,9 @@ impl Recipe {
     }
 }
 
+/// Words for a number of keys, in `keys={"count": 9}`; `keys=9` has none.
+const NUMBERS: [&str; 5] = ["", "keys", "count", "number", "n"];
+
 /// Whether there is no such setting. A joint's weight, passages and a setting of a layer have no knob of their own.
 fn is_unknown(name: &str) -> bool {
     !name.contains('/')
@@ -66,7 +71,35 @@ fn unknown(py: Python<'_>, name: &str, function: &str) -> PyErr {
     let own = arguments(py, function).unwrap_or_default();
     let axes = if function == "study" { &Noise::AXES[..] } else { &[] };
     let own: Vec<&str> = own.iter().map(String::as_str).chain(axes.iter().copied()).collect();
+    if own.contains(&"targets")
+        && let Some(error) = meant_target(name, &own)
+    {
+        return raised(py, error);
+    }
     raised(py, unknown_beside(name, &own))
+}
+
+/// Returns the error of a name that means a target, if it does: `keys=9`, `keys={"count": 9}`, `max_error=8`,
+/// `target={"keys": 9}`.
+fn meant_target(name: &str, own: &[&str]) -> Option<Error> {
+    let (head, part) = name.split_once('.').unwrap_or((name, ""));
+    let targets = "targets={\"keys\": 9}";
+    let message = match head {
+        "keys" => format!("there is no such setting; a number of keys is asked for by {targets}"),
+        _ if TARGETS.contains(&head) => {
+            format!("it is no setting but a target, as in targets={{\"{head}\": 8}}")
+        }
+        // Of a dict, each entry comes as a setting.
+        _ if TARGETS.contains(&part) => match did_you_mean(head, own.iter().copied()) {
+            hint if hint.is_empty() => return None,
+            hint => format!("there is no such setting{hint} as in {targets}"),
+        },
+        _ => return None,
+    };
+    let is_near =
+        head == "keys" && !did_you_mean(name, KNOBS.iter().map(|knob| knob.name)).is_empty();
+    let is_number = NUMBERS.contains(&part);
+    (!is_near || is_number).then(|| Error::setting(name, message))
 }
 
 /// Returns the names of the arguments of a function of the package.

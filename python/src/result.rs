@@ -102,7 +102,7 @@ pub fn run<'py>(
     moves: Vec<Bound<'py, PyAny>>,
     holds: Vec<Bound<'py, PyAny>>,
     only_pins: bool,
-    targets: Option<&Bound<'py, PyDict>>,
+    targets: Option<&Bound<'py, PyAny>>,
     name: Option<String>,
     settings: Option<&Bound<'py, PyDict>>,
 ) -> PyResult<Result> {
@@ -354,7 +354,7 @@ impl Result {
         &self,
         py: Python<'_>,
         recipe: Option<Recipe>,
-        targets: Option<&Bound<'_, PyDict>>,
+        targets: Option<&Bound<'_, PyAny>>,
         settings: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Self> {
         let asked = recipe.unwrap_or_else(|| self.settings.clone()).with_of(

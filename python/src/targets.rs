@@ -7,14 +7,30 @@ use pyo3::types::PyDict;
 
 use crate::error::raised;
 
+/// The names of all targets.
+pub const TARGETS: [&str; 3] = ["keys", "drawings_per_second", "max_error"];
+
 /// Parses targets by name: `{"keys": 9, "drawings_per_second": 6}`. A target of None is ignored.
-pub fn targets(py: Python<'_>, asked: Option<&Bound<'_, PyDict>>) -> PyResult<Vec<Target>> {
+pub fn targets(py: Python<'_>, asked: Option<&Bound<'_, PyAny>>) -> PyResult<Vec<Target>> {
+    let Some(asked) = asked else {
+        return Ok(Vec::new());
+    };
+    let wrongly = |name: &str, expected, found: &Bound<'_, PyAny>| match found.repr() {
+        Ok(found) => {
+            raised(py, Error::setting(name, format!("expected {expected}, found {found}")))
+        }
+        Err(error) => error,
+    };
+    let expected = "a dict of targets, as in {\"keys\": 9}";
+    let asked = asked.cast::<PyDict>().map_err(|_| wrongly("targets", expected, asked))?;
     let mut found = Vec::new();
-    for (name, value) in asked.into_iter().flatten() {
+    for (name, value) in asked {
         if value.is_none() {
             continue;
         }
-        found.push(target(py, &name.extract::<String>()?, value.extract()?)?);
+        let name: String = name.extract().map_err(|_| wrongly("targets", expected, asked))?;
+        let number = value.extract().map_err(|_| wrongly(&name, "a number", &value))?;
+        found.push(target(py, &name, number)?);
     }
     Ok(found)
 }

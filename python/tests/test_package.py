@@ -457,6 +457,26 @@ def test_an_unknown_argument_is_told_what_may_be_meant(function, arguments, says
     assert "--" not in str(raised.value)
 
 
+@pytest.mark.parametrize(
+    "arguments, says",
+    [
+        ({"target": {"keys": 9}}, r'^target.keys: .*; did you mean targets\? as in targets=\{"keys": 9\}'),
+        ({"keys": 9}, r'^keys: .*; a number of keys is asked for by targets=\{"keys": 9\}'),
+        ({"keys": {"count": 9}}, "^keys.count: .*; a number of keys is asked for by targets="),
+        ({"keys": {"keys": 9}}, "^keys.keys: .*; a number of keys is asked for by targets="),
+        ({"keys": {"min_prise": 9}}, "^keys.min_prise: .*; did you mean keys.min_price"),
+        ({"max_error": 5}, r'^max_error: it is no setting but a target, as in targets=\{"max_error": 8\}'),
+        ({"targets": 9}, r'^targets: expected a dict of targets, as in \{"keys": 9\}, found 9'),
+        ({"targets": {1: 9}}, "^targets: expected a dict of targets"),
+        ({"targets": {"keys": "9"}}, "^keys: expected a number, found '9'"),
+    ],
+)
+def test_a_target_that_is_asked_for_otherwise_is_told_how(arguments, says, clip):
+    for run in (lambda: genga.run(clip, **arguments), lambda: genga.run(clip).again(**arguments)):
+        with pytest.raises(genga.Error, match=says):
+            run()
+
+
 def test_a_new_run_is_told_its_own_arguments(clip):
     with pytest.raises(genga.Error, match="target: .*; did you mean targets[?]"):
         genga.run(clip).again(target=9)
