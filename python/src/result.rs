@@ -5,7 +5,7 @@ use std::fs;
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex};
 
-use genga::keys::Key;
+use genga::keys::{BodyTurns, Key};
 use genga::motion::{Description, Joint};
 use genga::pipeline::{Breakdown, Engine, LayerBreakdown, Stop};
 use genga::sheet::{Drawing, Layer, Role};
@@ -180,6 +180,18 @@ impl Result {
         Ok(files)
     }
 
+    /// Builds an array with a row per layer.
+    fn of_layers<'py>(
+        &self,
+        py: Python<'py>,
+        of: fn(&BodyTurns) -> &[f64],
+    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let rows = self.look(py, move |breakdown| {
+            Ok(breakdown.layers().map(|layer| of(layer.body).to_vec()).collect::<Vec<_>>())
+        })?;
+        Ok(PyArray2::from_vec2(py, &rows)?)
+    }
+
     fn matrix<'py>(
         &self,
         py: Python<'py>,
@@ -245,7 +257,8 @@ impl Result {
 
     /// The keys, one row each, as `report` counts them: the first and the last drawing too, whose reason is `end`.
     /// `layer`, `frame`, `strength` (0 to 1), `price` (the error without the key, in % of body height; infinite for a
-    /// key that always stays), `reason`, `name`, `joints`.
+    /// key that always stays), `reason`, `name`, `joints`. `to_csv()["keys.csv"]` has the koma of each, as the program
+    /// writes them.
     #[getter]
     fn keys<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let rows = self.look(py, |breakdown| Ok(key_rows(breakdown)))?;
@@ -264,10 +277,21 @@ impl Result {
         )
     }
 
-    /// Turns of single joints, one row each: `joint` (index), `frame`, `kind` (key, wall), `confirmed_for` (frames).
+    /// Turns of single joints, one row each, as `genga keys --per-joint` writes them: `joint` (index in `Clip.names`),
+    /// `frame`, `kind` (key, wall), `speed_deg_s` (the filtered speed there, °/s, or in the unit of the measure),
+    /// `confirmed_for` (frames).
     #[getter]
     fn turns<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let turns = self.look(py, |breakdown| Ok(breakdown.turns.to_vec()))?;
+        let (turns, speeds) = self.look(py, |breakdown| {
+            let Breakdown { filtered, turns, clip, .. } = breakdown;
+            let of_joint = |((joint, _), turns): (_, &Vec<Turn>)| {
+                let own = filtered.joint(joint);
+                let at = |turn: &Turn| own[turn.frame.0 - filtered.first.0];
+                turns.iter().map(|turn| at(turn) * filtered.unit.for_people()).collect::<Vec<_>>()
+            };
+            let speeds = clip.skeleton().iter().zip(*turns).flat_map(of_joint);
+            Ok((turns.to_vec(), speeds.collect::<Vec<f64>>()))
+        })?;
         let each = || turns.iter().flatten();
         let kind = |turn: &Turn| if turn.kind == TurnKind::Key { "key" } else { "wall" };
         let joints =
@@ -278,9 +302,42 @@ impl Result {
                 ("joint", Column::counts(joints)),
                 ("frame", Column::counts(each().map(|turn| turn.frame.0))),
                 ("kind", Column::words(each().map(kind))),
+                ("speed_deg_s", Column::numbers(speeds)),
                 ("confirmed_for", Column::counts(each().map(|turn| turn.confirmed_for))),
             ],
         )
+    }
+
+    /// Turns of the body as a whole, of which a study's measure `turns` is the number, and its walls, one row each:
+    /// `layer`, `frame`, `kind` (turn, wall), `strength` (of a turn 0 to 1, as in `evidence`; of a wall in % of body
+    /// height a second).
+    #[getter]
+    fn body_turns<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let rows = self.look(py, |breakdown| Ok(body_rows(breakdown)))?;
+        let each = || rows.iter();
+        table(
+            py,
+            [
+                ("layer", Column::words(each().map(|(layer, ..)| &**layer))),
+                ("frame", Column::counts(each().map(|(_, frame, ..)| *frame))),
+                ("kind", Column::words(each().map(|(_, _, kind, _)| *kind))),
+                ("strength", Column::numbers(each().map(|(.., strength)| *strength))),
+            ],
+        )
+    }
+
+    /// How much slower the body is at each frame than before and after it, J of the method, in % of body height a
+    /// second: float64 (L, F), a row per layer, as there are on the sheet. Turns are its peaks. A loop has the frames of
+    /// its round.
+    #[getter]
+    fn dips<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        self.of_layers(py, |body| &body.dips)
+    }
+
+    /// How much of a turn each frame is, 0 to 1, by which keys are strong: float64 (L, F), as `dips`.
+    #[getter]
+    fn evidence<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        self.of_layers(py, |body| &body.evidence)
     }
 
     /// Speed of each joint: float64 (F, J), radians per second, or units per second if displacement is measured.
@@ -494,6 +551,22 @@ impl KeyRow {
             joints: voters.map(|voter| &*joints[voter.0].name).collect::<Vec<_>>().join(" "),
         }
     }
+}
+
+/// A turn or wall of a layer: layer, frame, kind and strength.
+type BodyRow = (String, usize, &'static str, f64);
+
+fn body_rows(breakdown: &Breakdown<'_>) -> Vec<BodyRow> {
+    let of_layer = |(of, layer): (LayerBreakdown<'_>, &Layer)| {
+        let BodyTurns { first, evidence, turns, walls, .. } = of.body;
+        let turns = turns.iter().map(|turn| (turn.0, "turn", evidence[turn.0 - first.0]));
+        let walls = walls.iter().map(|wall| (wall.frame.0, "wall", wall.strength));
+        let row = |(frame, kind, strength)| (layer.name.clone(), frame, kind, strength);
+        let mut rows: Vec<BodyRow> = turns.chain(walls).map(row).collect();
+        rows.sort_by_key(|(_, frame, ..)| *frame);
+        rows
+    };
+    breakdown.layers().zip(&breakdown.sheet.layers).flat_map(of_layer).collect()
 }
 
 fn key_rows(breakdown: &Breakdown<'_>) -> Vec<KeyRow> {

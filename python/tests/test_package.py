@@ -283,6 +283,27 @@ def test_the_sheet_covers_every_koma(clip):
     assert sheet.exposures["drawing"].max() < len(sheet.drawings["drawing"])
 
 
+def test_the_turns_of_the_body_and_of_joints_are_the_programs(clip):
+    result = genga.run(clip)
+    found, first = result.body_turns, clip.first
+    turns = found["frame"][found["kind"] == "turn"]
+    assert len(turns) == genga.study(clip, x=("rate", [24]), measures=["turns"])["turns"][0]
+    assert result.dips.shape == result.evidence.shape == (1, len(clip))
+    assert result.evidence[0, turns - first].tolist() == found["strength"][found["kind"] == "turn"].tolist()
+    peaks = result.dips[0, turns - first]
+    assert (peaks >= result.dips[0, turns - first - 1]).all() and (peaks >= result.dips[0, turns - first + 1]).all()
+    at = {frame: e for frame, e in zip(range(first, first + len(clip)), result.evidence[0])}
+    keys = result.keys
+    of_turns = keys["reason"] == "turn"
+    assert np.allclose([at[frame] for frame in keys["frame"][of_turns]], keys["strength"][of_turns])
+    limbs = genga.run(clip, layers="limbs")
+    assert len(limbs.dips) == len(set(limbs.body_turns["layer"])) > 1
+    out = subprocess.run([PROGRAM, "keys", str(KICK), "--per-joint"], check=True, capture_output=True, text=True).stdout
+    header, *rows = [line.split(",") for line in out.splitlines()]
+    assert header == list(result.turns) and [clip.names[joint] for joint in result.turns["joint"]] == [row[0] for row in rows]
+    assert np.allclose(result.turns["speed_deg_s"], [float(row[3]) for row in rows])
+
+
 def test_tables_go_into_pandas(clip):
     pandas = pytest.importorskip("pandas")
     result = genga.run(clip)

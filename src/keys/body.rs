@@ -30,6 +30,8 @@ const TREMBLE: f64 = 2.0;
 pub struct BodyTurns {
     /// The clip's first frame.
     pub first: Frame,
+    /// J: how much slower the body is at each frame than before and after it, in % of body height a second.
+    pub dips: Vec<f64>,
     /// Strength of the turn at each frame, 0 to 1.
     pub evidence: Vec<f64>,
     /// Turns by frame, at least a koma apart.
@@ -110,6 +112,7 @@ impl BodySpeeds {
             turns: turns.collect(),
             walls: walls.map(|(row, strength)| Wall { frame: frame(row), strength }).collect(),
             evidence: evidence.collect(),
+            dips: valleys,
         }
     }
 }

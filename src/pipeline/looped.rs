@@ -289,6 +289,7 @@ impl Round {
             own.map(|(frame, wall)| Wall { frame, ..*wall }).collect()
         };
         let gait = keys.gaits.iter().filter_map(|gait| self.gait(gait)).collect();
+        let round = |all: &[f64]| all.iter().skip(frames).take(frames + 1).copied().collect();
         let rest = |rest: &RangeInclusive<Frame>| {
             let end = rest.end().0.checked_sub(frames)?.min(self.first.0 + frames);
             let begin = rest.start().0.saturating_sub(frames).max(self.first.0);
@@ -303,7 +304,8 @@ impl Round {
             drawn,
             body: BodyTurns {
                 first: self.first,
-                evidence: body.evidence.iter().skip(frames).take(frames + 1).copied().collect(),
+                dips: round(&body.dips),
+                evidence: round(&body.evidence),
                 turns: body.turns.iter().filter_map(|frame| self.own(*frame)).collect(),
                 walls: walls(&body.walls),
             },
