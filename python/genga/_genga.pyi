@@ -111,7 +111,7 @@ class Clip:
         *,
         keep_lead_in: bool = False,
         keep_glitches: bool = False,
-        trim: Optional[tuple[int, int]] = None,
+        trim: Optional[Sequence[int]] = None,
     ) -> Clip: ...
     def cycles(self) -> _Table: ...
     def distances(self, other: Clip) -> _Floats: ...
@@ -259,7 +259,7 @@ def read(
     strict: bool = False,
     keep_lead_in: bool = False,
     keep_glitches: bool = False,
-    trim: Optional[tuple[int, int]] = None,
+    trim: Optional[Sequence[int]] = None,
 ) -> Clip: ...
 def run(
     clip: _Source,

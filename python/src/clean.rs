@@ -18,12 +18,11 @@ impl Clip {
         py: Python<'_>,
         keep_lead_in: bool,
         keep_glitches: bool,
-        trim: Option<(usize, usize)>,
+        trim: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
+        let cleaning = cleaning(keep_lead_in, keep_glitches, trim)?;
         let motion = Arc::clone(&self.motion);
-        let made = work::done(py, move |_| {
-            cleaning(keep_lead_in, keep_glitches, trim).apply((*motion).clone())
-        })?;
+        let made = work::done(py, move |_| cleaning.apply((*motion).clone()))?;
         let (motion, notes) = made.map_err(|error| raised(py, error))?;
         Ok(Self::new(Arc::new(motion), self.file.clone(), notes))
     }

@@ -101,8 +101,22 @@ impl Clip {
 }
 
 /// Builds the cleaning that Python's arguments describe.
-pub fn cleaning(keep_lead_in: bool, keep_glitches: bool, trim: Option<(usize, usize)>) -> Cleaning {
-    Cleaning { keep_lead_in, keep_glitches, trim: trim.map(|(begin, end)| begin..end) }
+pub fn cleaning(
+    keep_lead_in: bool,
+    keep_glitches: bool,
+    trim: Option<&Bound<'_, PyAny>>,
+) -> PyResult<Cleaning> {
+    let range = |trim: &Bound<'_, PyAny>| match trim.extract::<[usize; 2]>() {
+        Ok([begin, end]) => Ok(begin..end),
+        Err(_) => {
+            let message = format!(
+                "expected two frames, the second left out, as in (10, 50), found {}",
+                trim.repr()?
+            );
+            Err(raised(trim.py(), genga::Error::setting("trim", message)))
+        }
+    };
+    Ok(Cleaning { keep_lead_in, keep_glitches, trim: trim.map(range).transpose()? })
 }
 
 /// Returns the array as C-ordered float64: itself if it already is, else a copy.
@@ -420,8 +434,9 @@ pub fn read(
     strict: bool,
     keep_lead_in: bool,
     keep_glitches: bool,
-    trim: Option<(usize, usize)>,
+    trim: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Clip> {
+    let cleaning = cleaning(keep_lead_in, keep_glitches, trim)?;
     name.as_deref().map_or(Ok(()), |name| named(py, name))?;
     let rate = |rate: Option<f64>| rate.map(FrameRate::new).transpose();
     let fps = rate(fps).map_err(|error| raised(py, error))?;
@@ -440,7 +455,7 @@ pub fn read(
     let made = work::done(py, move |_| {
         let read = path.map_or_else(|| options.read(&bytes), |path| options.open(&path))?;
         let file::Read { clip, mut warnings, .. } = read;
-        let (clip, notes) = cleaning(keep_lead_in, keep_glitches, trim).apply(clip)?;
+        let (clip, notes) = cleaning.apply(clip)?;
         warnings.extend(notes);
         clip.check_size()?;
         Ok((clip, warnings))

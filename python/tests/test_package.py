@@ -558,6 +558,17 @@ def test_the_way_out_of_a_message_is_there(clip, tmp_path):
         genga.read(genga.run(clip).to_vmd()["kick.vmd"], skeleton=tmp_path / "none.pmx")
 
 
+@pytest.mark.parametrize("trim", [(-1, 5), "10..20", (10,), 7, (1.5, 9)])
+def test_a_wrong_trim_is_told_as_such(trim, clip):
+    for read in (lambda: genga.read(KICK, trim=trim), lambda: clip.cleaned(trim=trim)):
+        with pytest.raises(genga.Error, match=r"^trim: expected two frames, .* as in \(10, 50\), found "):
+            read()
+
+
+def test_a_list_of_two_frames_trims_too(clip):
+    assert len(genga.read(KICK, trim=[10, 50])) == len(clip.cleaned(trim=np.array([10, 50]))) == 40
+
+
 def test_wrong_arrays_are_refused_in_words(clip):
     good = dict(names=["a", "b"], parents=[-1, 0], offsets=np.zeros((2, 3)), root=np.zeros((5, 3)), rate=30.0)
     unit = np.tile([0.0, 0.0, 0.0, 1.0], (5, 2, 1))
