@@ -291,13 +291,13 @@ def study(
     *,
     x: Optional[_Axis] = None,
     y: Optional[_Axis] = None,
-    measures: Optional[Sequence[str]] = None,
+    measures: Union[str, Sequence[str], None] = None,
     per_joint: bool = False,
     **settings: Any,
 ) -> Study: ...
 def evaluate(
     clip: _Source,
-    sheet: Union[Result, str, bytes, Mapping[str, bytes]],
+    sheet: Union[Result, str, PathLike[str], bytes, Mapping[str, bytes]],
     *,
     reference: Optional[_Keys] = None,
     tolerance: float = 1.0,

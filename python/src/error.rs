@@ -56,7 +56,7 @@ pub fn raised_of(py: Python<'_>, error: genga::Error, file: Option<&Path>) -> Py
 }
 
 /// What messages say of the program's commands and options, and what Python has in their place: nothing if it has none.
-const IN_PYTHON: [(&str, &str); 26] = [
+const IN_PYTHON: [(&str, &str); 28] = [
     (
         "`genga run --help` lists them and the options",
         "genga.knobs() lists them, and help() of the function its arguments",
@@ -73,6 +73,11 @@ const IN_PYTHON: [(&str, &str); 26] = [
         "name one with --within",
         "name one, as in passages=[{\"frames\": [120, 240], \"spacing\": {\"on\": 1}}]",
     ),
+    (
+        "this genga was built without it, that is, without the feature `pictures`",
+        "only the program writes it",
+    ),
+    ("measure: expected", "measures: expected"),
     ("max-error: ", "max_error: "),
     ("drawings-per-second: ", "drawings_per_second: "),
     (

@@ -1,5 +1,6 @@
 //! Studies of settings, judgements of sheets, comparisons of methods.
 
+use std::fs;
 use std::sync::Arc;
 
 use genga::motion::Clip as Motion;
@@ -11,7 +12,7 @@ use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList, PyTuple};
 
-use crate::clip::{Clip, taken};
+use crate::clip::{Clip, Given, taken};
 use crate::error::{asked_wrongly, raised, warned};
 use crate::recipe::Recipe;
 use crate::reference::ReferenceKeys;
@@ -26,8 +27,9 @@ use crate::work;
 /// and with `filter.width` alone, they are those of `run`, `Recipe()`. A recipe that is given replaces either, and
 /// `settings` are applied to it. Returns a `genga.Study`: a dict of columns with one row per combination, whose
 /// attribute `recipe` is the recipe that was used. Its columns are both settings, then one for each of `measures`
-/// (`genga study --help` lists them), by default turns, genga, fills, union and total, or all measures if an axis is a
-/// setting of the sheet (`spacing`, `omission`). The column of a setting has numbers if all of its values are plain
+/// (a list, or text such as "union,total"): turns, genga, fills, union, total, drawings, drawings_per_second,
+/// genga_per_second, longest_hold, held_koma, peak_ssd and median_ssd. By default they are the first five, or all if an
+/// axis is a setting of the sheet (`spacing`, `omission`). The column of a setting has numbers if all of its values are plain
 /// numbers, whole ones if all are whole: `table["union"][table["filter.width"] == 10]`. If one has a unit or is a word
 /// (`"0.1s"`, `"4%"`, `"none"`), the column has text, each value as the recipe file writes it. With `per_joint` the columns are `joint` and `keys` and the
 /// rows one per joint. Several clips, or motion files, have a column `clip` first. A setting that is also an axis raises
@@ -41,7 +43,7 @@ pub fn study<'py>(
     recipe: Option<Recipe>,
     x: Option<Bound<'py, PyAny>>,
     y: Option<Bound<'py, PyAny>>,
-    measures: Option<Vec<String>>,
+    measures: Option<Bound<'py, PyAny>>,
     per_joint: bool,
     settings: Option<&Bound<'py, PyDict>>,
 ) -> PyResult<Bound<'py, PyAny>> {
@@ -58,7 +60,10 @@ pub fn study<'py>(
         return Err(asked_wrongly(py, message));
     }
     let measures = match measures {
-        Some(names) => names.iter().map(|name| name.parse()).collect(),
+        Some(names) => match names.extract::<String>() {
+            Ok(names) => names.split(',').map(|name| name.trim().parse()).collect(),
+            Err(_) => names.extract::<Vec<String>>()?.iter().map(|name| name.parse()).collect(),
+        },
         None => Ok(Measure::usual(&x, y.as_ref())),
     };
     let measures = measures.map_err(|error| raised(py, error))?;
@@ -264,11 +269,10 @@ fn of_joints<'py>(
     Ok(made)
 }
 
-/// Evaluates a sheet (a `genga.Result`, the dict of `Result.to_json()`, or the text of a `sheet.json`) against its
-/// clip. `reference` are key frames that somebody else chose: whole numbers, another `genga.Result`, or a path or the
-/// bytes of a file that `genga eval --reference` reads, such as a table with a column `frame`. A key within `tolerance`
-/// koma of one counts as the same. Those beyond the sheet do not count, with a warning. Returns nested dicts like the
-/// output of `genga eval --json`; the scores against `reference` are in it under `timing` (`f1`, `precision`, `recall`
+/// Evaluates a sheet (a `genga.Result`, the dict of `Result.to_json()`, or a `sheet.json` as a path, its text or bytes)
+/// against its clip. `reference` are key frames that somebody else chose: whole numbers, another `genga.Result`, or a path or the
+/// bytes of a file of keys: a `sheet.json`, a CSV with a column `frame` or `source_frame`, or one frame per line. A key within `tolerance`
+/// koma of one counts as the same. Those beyond the sheet do not count, with a warning. Returns nested dicts; the scores against `reference` are in it under `timing` (`f1`, `precision`, `recall`
 /// and more), which is None without `reference`. Errors are in % of body height. Anything else as a sheet raises
 /// `TypeError`.
 #[pyfunction]
@@ -300,23 +304,34 @@ pub fn evaluate<'py>(
     plain(py, &made.map_err(|error| raised(py, error))?)
 }
 
-/// Returns the text of a sheet that is given as a result, as its files or as the text.
+/// Returns the text of a sheet that is given as a result, as its files, as a path or as the text.
 pub fn text_of(sheet: &Bound<'_, PyAny>) -> PyResult<Vec<u8>> {
     let files = match sheet.is_instance_of::<crate::result::Result>() {
         true => sheet.call_method0("to_json")?,
         false => sheet.clone(),
     };
-    let text = match files.cast::<PyDict>() {
-        Ok(files) => files.as_any().get_item("sheet.json")?,
-        Err(_) => files,
-    };
-    let bytes = text.extract::<String>().map(String::into_bytes).or_else(|_| text.extract());
-    bytes.map_err(|_| {
+    let wrongly = || {
         let kind = sheet.get_type();
         PyTypeError::new_err(format!(
-            "expected a genga.Result, the dict of its to_json() or the text of a sheet.json, not {kind}"
+            "expected a genga.Result, the dict of its to_json(), or the path or the text of a sheet.json, not {kind}"
         ))
-    })
+    };
+    let text = match files.cast::<PyDict>() {
+        Ok(files) => files.get_item("sheet.json")?.ok_or_else(wrongly)?,
+        Err(_) => files,
+    };
+    match text.extract::<String>() {
+        Ok(text) if text.trim_start_matches('\u{feff}').trim_start().starts_with('{') => {
+            return Ok(text.into_bytes());
+        }
+        _ => {}
+    }
+    match text.extract().map_err(|_| wrongly())? {
+        Given::Bytes(bytes) => Ok(bytes.as_bytes().to_vec()),
+        Given::Path(path) => {
+            fs::read(&path).map_err(|source| raised(sheet.py(), genga::Error::Io { path, source }))
+        }
+    }
 }
 
 /// Chooses the same number of keys by several methods, and evaluates each. `keys` lists the numbers of keys, without

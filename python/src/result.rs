@@ -2,9 +2,10 @@
 
 use std::collections::HashSet;
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
 
+use genga::Error;
 use genga::keys::{BodyTurns, Key};
 use genga::motion::{Description, Joint};
 use genga::pipeline::{Breakdown, Engine, LayerBreakdown, Stop};
@@ -435,11 +436,21 @@ impl Result {
         formats: Vec<String>,
         settings: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Vec<PathBuf>> {
+        if formats.is_empty() {
+            let message = "no format is named; genga.formats() lists them, as in write(\"out\", \"json\", \"csv\")";
+            return Err(raised(py, Error::setting("write", message)));
+        }
+        let failed = |path: &Path| {
+            let path = path.to_owned();
+            move |source| raised(py, Error::Io { path, source })
+        };
         let mut written = Vec::new();
         for (name, bytes) in self.files_of(py, &formats, settings)? {
             let path = folder.join(name);
-            path.parent().map_or(Ok(()), fs::create_dir_all)?;
-            fs::write(&path, bytes)?;
+            if let Some(parent) = path.parent() {
+                fs::create_dir_all(parent).map_err(failed(parent))?;
+            }
+            fs::write(&path, bytes).map_err(failed(&path))?;
             written.push(path);
         }
         Ok(written)

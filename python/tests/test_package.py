@@ -569,6 +569,36 @@ def test_a_list_of_two_frames_trims_too(clip):
     assert len(genga.read(KICK, trim=[10, 50])) == len(clip.cleaned(trim=np.array([10, 50]))) == 40
 
 
+def test_what_cannot_be_written_is_told(clip, tmp_path):
+    result, file = genga.run(clip), tmp_path / "file"
+    file.write_text("")
+    with pytest.raises(genga.Error, match=r"^write: no format is named; genga.formats\(\) lists them"):
+        result.write(tmp_path)
+    with pytest.raises(genga.Error, match="^mp4: only the program writes it$"):
+        result.write(tmp_path, "mp4")
+    with pytest.raises(OSError) as raised:
+        result.write(file, "json")
+    assert raised.value.filename == str(file)
+
+
+def test_a_sheet_is_evaluated_from_its_path(clip, tmp_path):
+    result = genga.run(clip)
+    path = next(path for path in result.write(tmp_path, "json") if path.name == "sheet.json")
+    wanted = genga.evaluate(clip, result)
+    for sheet in (path, str(path), path.read_bytes(), path.read_text(encoding="utf-8")):
+        assert genga.evaluate(clip, sheet) == wanted
+    with pytest.raises(FileNotFoundError):
+        genga.evaluate(clip, "nothing.json")
+    with pytest.raises(TypeError, match="expected a genga.Result, "):
+        genga.evaluate(clip, result.to_csv())
+
+
+def test_measures_are_a_list_or_text(clip):
+    same_table(genga.study(clip, measures="union, total"), genga.study(clip, measures=["union", "total"]))
+    with pytest.raises(genga.Error, match="^measures: expected one of turns, "):
+        genga.study(clip, measures=["unoin"])
+
+
 def test_wrong_arrays_are_refused_in_words(clip):
     good = dict(names=["a", "b"], parents=[-1, 0], offsets=np.zeros((2, 3)), root=np.zeros((5, 3)), rate=30.0)
     unit = np.tile([0.0, 0.0, 0.0, 1.0], (5, 2, 1))
