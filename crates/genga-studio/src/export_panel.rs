@@ -2,7 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use egui::{Button, CollapsingHeader, ComboBox, Grid, Key, RichText, ScrollArea, TextEdit, Ui};
+use egui::{
+    Button, CollapsingHeader, ComboBox, Grid, Key, Label, RichText, ScrollArea, TextEdit, Ui,
+};
 
 use super::command::Command;
 use super::destinations;
@@ -172,13 +174,16 @@ impl OrderPanel {
         if own.is_empty() {
             let only =
                 words.say("No card is chosen: only ", "届け先が選ばれていません。書き出すのは");
-            ui.label(RichText::new(format!("{only}{all}")).color(ui.visuals().warn_fg_color));
+            let text = RichText::new(format!("{only}{all}")).color(ui.visuals().warn_fg_color);
+            ui.add(Label::new(text).truncate());
             return;
         }
-        ui.weak(match words.is_japanese() {
+        let text = match words.is_japanese() {
             true => format!("{own}、ほかに{all}"),
             false => format!("{own}; {all}"),
-        });
+        };
+        // A wider panel would move its buttons.
+        ui.add(Label::new(RichText::new(text).weak()).truncate());
     }
 }
 
