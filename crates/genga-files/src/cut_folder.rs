@@ -1,7 +1,10 @@
 //! The cut folder (カット袋): the timesheets of a cut, and each column's pictures, numbered like their cells.
 
+mod tvpaint;
+
 use serde::Serialize;
 
+use self::tvpaint::TvPaint;
 use super::xdts::column;
 use super::{Cut, Settings, Sink, xsheet};
 use genga::error::Error;
@@ -43,7 +46,7 @@ struct Column<'a> {
 /// Writes the cut's folder, named after the cut.
 ///
 /// The XDTS sheets for drawing programs lie side by side, so that viewers pair them. Each is also copied beside its
-/// pictures, where programs look for these by column and number.
+/// pictures, where programs look for these by column and number. The CSV there names the picture of each koma.
 ///
 /// # Errors
 /// The errors of the formats in the folder.
@@ -60,7 +63,15 @@ pub(super) fn write(cut: &Cut<'_>, settings: &Settings, put: &mut Sink<'_>) -> R
     put(&at("CUT_timesheet.html"), paper.html.as_bytes())?;
     let mut columns = columns(cut);
     let genga: Vec<_> = cut.sheet.layers.iter().map(Layer::genga_numbers).collect();
-    let douga: Vec<_> = cut.sheet.layers.iter().map(Layer::numbers).collect();
+    let numbers = |layer: &Layer| layer.numbers().into_iter().map(Some).collect();
+    let douga: Vec<Vec<_>> = cut.sheet.layers.iter().map(numbers).collect();
+    let folders: Vec<&str> = columns.iter().map(|column| &column.folder[..]).collect();
+    let size = (settings.images.width, settings.images.height);
+    for (kind, numbers) in [(GENGA, &genga), (DOUGA, &douga)] {
+        let csv = TvPaint { cut: &cut.file("CUT"), kind, columns: &folders, size };
+        let csv = csv.write(cut.sheet, numbers);
+        put(&at(&format!("{kind}/{}", cut.file("CUT.csv"))), csv.as_bytes())?;
+    }
     // Columns are stacked on each other, so their pictures need a transparent background.
     let transparent = settings.images.transparent || cut.sheet.layers.len() > 1;
     let body = settings.figures.body;
@@ -71,7 +82,7 @@ pub(super) fn write(cut: &Cut<'_>, settings: &Settings, put: &mut Sink<'_>) -> R
             put(&at(&picture(GENGA, &column.folder, number)), png)?;
             column.genga.push(number.clone());
         }
-        let number = &douga[own.layer][own.drawing];
+        let Some(number) = &douga[own.layer][own.drawing] else { return Ok(()) };
         column.douga.push(number.clone());
         put(&at(&picture(DOUGA, &column.folder, number)), &own.douga)
     })?;
@@ -99,7 +110,12 @@ fn columns<'a>(cut: &Cut<'a>) -> Vec<Column<'a>> {
 
 /// The path of a picture, where drawing programs look for it beside a sheet.
 fn picture(kind: &str, folder: &str, number: &Number) -> String {
-    format!("{kind}/{folder}/{folder}_{number:04}.png")
+    format!("{kind}/{folder}/{}", file(folder, number))
+}
+
+/// The name of a picture.
+fn file(folder: &str, number: &Number) -> String {
+    format!("{folder}_{number:04}.png")
 }
 
 #[cfg(test)]

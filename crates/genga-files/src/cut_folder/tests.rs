@@ -7,6 +7,7 @@ use genga::edits::Edits;
 use genga::motion::bvh;
 use genga::pipeline::Engine;
 use genga::recipe::Recipe;
+use genga::sheet::{Blank, Sheet};
 
 /// The kick's cut folder with the given layers, as small pictures.
 fn folder(layers: &str) -> BTreeMap<String, Vec<u8>> {
@@ -15,18 +16,28 @@ fn folder(layers: &str) -> BTreeMap<String, Vec<u8>> {
 
 /// The same with some settings.
 fn folder_with(layers: &str, own: &[(&str, &str)]) -> BTreeMap<String, Vec<u8>> {
+    sheet_and_folder(layers, own, Blank::default()).1
+}
+
+/// The same with blank koma round the drawings, and its sheet.
+fn sheet_and_folder(
+    layers: &str,
+    own: &[(&str, &str)],
+    blank: Blank,
+) -> (Sheet, BTreeMap<String, Vec<u8>>) {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../data/kick.bvh");
     let clip = bvh::open(path.as_ref()).unwrap().clip;
     let mut recipe = Recipe::default();
     recipe.set("layers", layers).unwrap();
     let mut engine = Engine::new(clip).unwrap();
     let breakdown = engine.run(&recipe, &Edits::default()).unwrap();
+    let sheet = Sheet { blank, ..breakdown.sheet.clone() };
     let cut = Cut {
         name: "c012",
         clip_file: "kick.bvh",
         clip: breakdown.clip,
         exaggerated: None,
-        sheet: breakdown.sheet,
+        sheet: &sheet,
         spaced: None,
         splits: &[],
         made_with: None,
@@ -45,7 +56,7 @@ fn folder_with(layers: &str, own: &[(&str, &str)]) -> BTreeMap<String, Vec<u8>> 
     write(&cut, &settings, &mut put).unwrap();
     let whole = |name: &str, png: Vec<u8>| put(&format!("whole/{name}"), &png);
     settings.images.draw(cut.clip, cut.sheet, whole).unwrap();
-    files
+    (sheet, files)
 }
 
 /// The cells that a drawing program derives from a sheet: each number in a column as `A/A_0001.png` beside the
@@ -85,6 +96,57 @@ fn beside_each_sheet_every_cell_finds_its_picture_and_no_picture_is_left() {
             assert_eq!(suggested, pictures(&files, kind), "{layers}, {kind}");
             assert!(suggested.len() > 10);
             assert_eq!(files[&sheet], files[&format!("c012/c012_{kind}_ts.xdts")]);
+        }
+    }
+}
+
+/// The picture on each koma of each layer, as Krita reads TVPaint's CSV: the folder without its first part is below the
+/// file's own.
+fn shown_by_csv(files: &BTreeMap<String, Vec<u8>>, kind: &str) -> Vec<(String, Vec<String>)> {
+    let text = std::str::from_utf8(&files[&format!("c012/{kind}/c012.csv")]).unwrap();
+    let cells = |row: &str| -> Vec<String> {
+        row.split(", ").skip(1).map(|cell| cell.trim_matches('"').to_owned()).collect()
+    };
+    let row = |head: &str| cells(text.lines().find(|row| row.starts_with(head)).unwrap());
+    let mut layers: Vec<_> = row("#Layers").into_iter().map(|name| (name, vec![])).collect();
+    let folders = row("#Folder");
+    let frames = (0..).map_while(|koma: usize| {
+        text.lines().find(|row| row.starts_with(&format!("#{koma:05}"))).map(cells)
+    });
+    for pictures in frames {
+        for ((layer, folder), picture) in layers.iter_mut().zip(&folders).zip(pictures) {
+            let below = folder.split_once('/').unwrap().1;
+            let path = format!("c012/{kind}/{below}/{picture}");
+            layer.1.push(if picture.is_empty() { picture } else { path });
+        }
+    }
+    layers
+}
+
+#[test]
+fn the_csv_beside_the_pictures_has_the_drawing_of_each_koma() {
+    for layers in ["body", "limbs"] {
+        let (sheet, files) = sheet_and_folder(layers, &[], Blank { before: 3, after: 5 });
+        let douga = shown_by_csv(&files, DOUGA);
+        let genga = shown_by_csv(&files, GENGA);
+        assert_eq!(douga.len(), sheet.layers.len());
+        // The foremost layer comes first.
+        for (at, layer) in sheet.layers.iter().rev().enumerate() {
+            let (numbers, keys) = (layer.numbers(), layer.genga_numbers());
+            let drawings: Vec<usize> = layer.koma().collect();
+            for (kind, (name, shown)) in [(DOUGA, &douga[at]), (GENGA, &genga[at])] {
+                let mut wanted = vec![String::new(); 3];
+                let mut key = None;
+                for drawing in &drawings {
+                    key = keys[*drawing].clone().or(key);
+                    let number =
+                        if kind == DOUGA { &numbers[*drawing] } else { key.as_ref().unwrap() };
+                    wanted.push(format!("c012/{kind}/{name}/{name}_{number:04}.png"));
+                }
+                wanted.extend(vec![String::new(); 5]);
+                assert_eq!(*shown, wanted, "{layers} {kind} {name}");
+                assert!(shown.iter().all(|path| path.is_empty() || files.contains_key(path)));
+            }
         }
     }
 }
