@@ -59,17 +59,15 @@ impl Outcomes<'_> {
 
     fn of_pin(&self, pin: &Pin) -> Option<(Frame, String)> {
         let frame = pin.frame;
-        let number = self.number(frame)?;
-        let instead = match self.lost_near(frame).join(" and ") {
-            // A pin stands on the koma of its own frame, a found genga may stand beside it.
-            _ if self.is_found(frame) => {
-                format!(
-                    ", a genga already, now on koma {}",
-                    self.before + self.clock.koma_from_frame(frame) + 1
-                )
+        let (drawing, number) = self.genga(frame)?;
+        let mut timed = self.sheet.timed();
+        let koma = timed.find(|(_, shown)| shown.drawing == drawing).map(|(koma, _)| koma);
+        let instead = match (self.lost_near(frame).join(" and "), koma) {
+            (_, Some(koma)) if self.is_found(frame) => {
+                format!(", a genga already, on koma {}", self.before + koma + 1)
             }
-            none if none.is_empty() => none,
-            frames => format!(" in place of {frames}"),
+            (none, _) if none.is_empty() => none,
+            (frames, _) => format!(" in place of {frames}"),
         };
         Some((frame, self.line("pin", frame, &format!("genga {number}{instead}"))))
     }
@@ -109,11 +107,17 @@ impl Outcomes<'_> {
 
     /// The number on the sheet of the genga that shows a frame.
     fn number(&self, frame: Frame) -> Option<Number> {
+        self.genga(frame).map(|(_, number)| number)
+    }
+
+    /// The genga that shows a frame: the index of its drawing, and its number.
+    fn genga(&self, frame: Frame) -> Option<(usize, Number)> {
         let away = |drawing: &Drawing| (drawing.source.place() - frame.0 as f64).abs();
-        let numbered = self.sheet.drawings.iter().zip(self.sheet.genga_numbers());
-        let kept = numbered.filter_map(|(drawing, number)| Some((away(drawing), number?)));
-        let (away, number) = kept.min_by(|a, b| a.0.total_cmp(&b.0))?;
-        (away < self.clock.frames_in_koma()).then_some(number)
+        let numbered = self.sheet.drawings.iter().zip(self.sheet.genga_numbers()).enumerate();
+        let kept =
+            numbered.filter_map(|(at, (drawing, number))| Some((away(drawing), (at, number?))));
+        let (away, genga) = kept.min_by(|a, b| a.0.total_cmp(&b.0))?;
+        (away < self.clock.frames_in_koma()).then_some(genga)
     }
 
     /// Whether a key is at a frame now.

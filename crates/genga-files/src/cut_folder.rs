@@ -5,11 +5,11 @@ mod tvpaint;
 use serde::Serialize;
 
 use self::tvpaint::TvPaint;
-use super::xdts::column;
+use super::xdts::{self, column};
 use super::{Cut, Settings, Sink, xsheet};
-use genga::error::Error;
+use genga::error::{Error, Warning};
 use genga::sheet::{Layer, Number};
-use genga_plot::{ColumnPictures, NumberedImages};
+use genga_plot::{CelGap, ColumnPictures, NumberedImages};
 
 /// The version of `cut.json`, stored in the file.
 const SCHEMA: &str = "genga-cut-1";
@@ -95,6 +95,27 @@ pub(super) fn write(cut: &Cut<'_>, settings: &Settings, put: &mut Sink<'_>) -> R
         &at("cut.json"),
         (serde_json::to_string_pretty(&contents).map_err(failed)? + "\n").as_bytes(),
     )
+}
+
+/// Warns of what the sheets cannot hold, and of cels that do not meet when they are laid over each other.
+///
+/// # Errors
+/// Those of [`CelGap::widest`].
+pub(super) fn notes(cut: &Cut<'_>) -> Result<Vec<Warning>, Error> {
+    let sheet = cut.sheet;
+    let mut notes = xdts::notes(sheet);
+    notes.extend(CelGap::widest(cut.clip, sheet)?.map(|gap| {
+        let [own, on] = gap.layers.map(|layer| &sheet.layers[layer].name);
+        let (koma, all) = (sheet.blank.before + gap.koma + 1, sheet.cut_length());
+        let CelGap { percent, seen, .. } = gap;
+        let message = format!(
+            "cels of columns that are drawn at different times do not meet: {own} is {percent:.1} % of body height off \
+             {on} on koma {koma}, and on {seen} of {all} koma some gap is over 2 %; move such a cel with the body or draw \
+             it anew, or have one column (layers=body)"
+        );
+        Warning::new("W_CEL_GAP", message)
+    }));
+    Ok(notes)
 }
 
 /// The columns, with no pictures listed yet.

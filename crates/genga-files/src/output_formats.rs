@@ -372,7 +372,7 @@ pub const FORMATS: &[Format] = &[
         files: &["CUT/CUT_genga_ts.xdts", "CUT/douga/A/A_0001.png"],
         is_numbered: true,
         make: cut_folder::write,
-        notes: |cut, _| Ok(xdts::notes(cut.sheet)),
+        notes: |cut, _| cut_folder::notes(cut),
         ..PLAIN
     },
 ];

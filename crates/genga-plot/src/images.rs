@@ -2,9 +2,13 @@
 
 #[cfg(feature = "images")]
 mod draw;
+#[cfg(feature = "images")]
+mod gap;
 
 #[cfg(feature = "images")]
 pub use draw::ColumnPictures;
+#[cfg(feature = "images")]
+pub use gap::CelGap;
 
 use serde::{Deserialize, Serialize};
 

@@ -59,9 +59,9 @@ pub use flipbook::FlipBook;
 pub use genga::motion::Camera;
 pub use heat::HeatMap;
 pub use hierarchy::SkeletonPlot;
-#[cfg(feature = "images")]
-pub use images::ColumnPictures;
 pub use images::NumberedImages;
+#[cfg(feature = "images")]
+pub use images::{CelGap, ColumnPictures};
 pub use onion::OnionSkin;
 pub use pose_row::PoseRow;
 pub use preview::Preview;

@@ -7,7 +7,7 @@ use genga::edits::Edits;
 use genga::motion::bvh;
 use genga::pipeline::Engine;
 use genga::recipe::Recipe;
-use genga::sheet::{Blank, Sheet};
+use genga::sheet::{Blank, Exposure, Sheet};
 
 /// The kick's cut folder with the given layers, as small pictures.
 fn folder(layers: &str) -> BTreeMap<String, Vec<u8>> {
@@ -25,23 +25,35 @@ fn sheet_and_folder(
     own: &[(&str, &str)],
     blank: Blank,
 ) -> (Sheet, BTreeMap<String, Vec<u8>>) {
+    with_cut(layers, |cut| {
+        let sheet = Sheet { blank, ..cut.sheet.clone() };
+        let files = files(&Cut { sheet: &sheet, ..*cut }, own);
+        (sheet, files)
+    })
+}
+
+/// Calls `work` with the kick in the given layers.
+fn with_cut<T>(layers: &str, work: impl FnOnce(&Cut<'_>) -> T) -> T {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../data/kick.bvh");
     let clip = bvh::open(path.as_ref()).unwrap().clip;
     let mut recipe = Recipe::default();
     recipe.set("layers", layers).unwrap();
     let mut engine = Engine::new(clip).unwrap();
     let breakdown = engine.run(&recipe, &Edits::default()).unwrap();
-    let sheet = Sheet { blank, ..breakdown.sheet.clone() };
-    let cut = Cut {
+    work(&Cut {
         name: "c012",
         clip_file: "kick.bvh",
         clip: breakdown.clip,
         exaggerated: None,
-        sheet: &sheet,
+        sheet: breakdown.sheet,
         spaced: None,
         splits: &[],
         made_with: None,
-    };
+    })
+}
+
+/// The files of a cut, as small pictures.
+fn files(cut: &Cut<'_>, own: &[(&str, &str)]) -> BTreeMap<String, Vec<u8>> {
     let mut settings = Settings::default();
     settings.set("images.width", "160").unwrap();
     settings.set("images.height", "90").unwrap();
@@ -53,10 +65,10 @@ fn sheet_and_folder(
         assert!(files.insert(name.to_owned(), bytes.to_vec()).is_none(), "{name} twice");
         Ok(())
     };
-    write(&cut, &settings, &mut put).unwrap();
+    write(cut, &settings, &mut put).unwrap();
     let whole = |name: &str, png: Vec<u8>| put(&format!("whole/{name}"), &png);
     settings.images.draw(cut.clip, cut.sheet, whole).unwrap();
-    (sheet, files)
+    files
 }
 
 /// The cells that a drawing program derives from a sheet: each number in a column as `A/A_0001.png` beside the
@@ -149,6 +161,27 @@ fn the_csv_beside_the_pictures_has_the_drawing_of_each_koma() {
             }
         }
     }
+}
+
+#[test]
+fn cels_that_do_not_meet_are_told() {
+    let said =
+        |cut: &Cut<'_>| -> String { notes(cut).unwrap().iter().map(ToString::to_string).collect() };
+    assert_eq!(with_cut("body", said), "", "one column meets nothing");
+    with_cut("limbs", |cut| {
+        let gap = said(cut);
+        assert!(gap.contains(" % of body height off A on koma "), "{gap}");
+        assert!(gap.contains("[W_CEL_GAP]"), "{gap}");
+        // Cels that are drawn anew on every koma meet.
+        let mut sheet = cut.sheet.clone();
+        for layer in &mut sheet.layers {
+            let shown: Vec<usize> = layer.koma().collect();
+            layer.drawings = shown.iter().map(|own| layer.drawings[*own].clone()).collect();
+            let exposures = 0..shown.len();
+            layer.exposures = exposures.map(|drawing| Exposure { drawing, koma: 1 }).collect();
+        }
+        assert_eq!(said(&Cut { sheet: &sheet, ..*cut }), "");
+    });
 }
 
 #[test]
