@@ -386,6 +386,7 @@ impl Result {
             notes.extend(of_body.iter().map(|note| in_python(&note.to_string())));
             notes.extend(run_notes::of_cycle(&motion, is_loop));
             notes.extend(short);
+            notes.extend(run_notes::of_held_inbetween(breakdown));
             notes.extend(run_notes::of_corrections(&edits, breakdown));
             Ok(Report::new(breakdown, notes))
         })?;

@@ -184,13 +184,48 @@ fn the_summary_says_what_each_correction_did() {
             "hold 33: stays for 4 koma",
             "pin 42: genga 7 in place of 41",
             "forbid 50: genga 9 moved from 48 to 47 (--forbid 47..53 leaves none)",
-            "pin 60: genga 11, a genga already, now on koma 61",
+            "pin 60: genga 11, a genga already, on koma 61",
             "move 71:74: genga 12",
         ]
     );
     let layers = place.said("run data/kick.bvh --layers limbs --pin B/42 --out b");
     assert!(layers.contains("修正       pin B/42: genga "), "{layers}");
     assert_eq!(layers.matches("修正").count(), 1, "{layers}");
+}
+
+#[test]
+fn a_long_held_inbetween_is_told_and_a_pin_makes_it_a_genga() {
+    let place = Place::new();
+    let says = "an inbetween, drawing ";
+    assert!(!place.said("run data/kick.bvh --out a").contains(says));
+    let held = place.said("run data/kick.bvh --set spacing.drift=1 --out b");
+    assert!(
+        held.contains(&format!("{says}26, is held for 13 koma from koma 80; a pin at ")),
+        "{held}"
+    );
+    let frame = held.split("; a pin at ").nth(1).unwrap().split(' ').next().unwrap();
+    let pinned =
+        place.said(&format!("run data/kick.bvh --set spacing.drift=1 --pin {frame} --out c"));
+    assert!(!pinned.contains(says), "{pinned}");
+    // Who holds it by hand knows.
+    let by_hand = place.said("run data/kick.bvh --hold 12:13 --out d");
+    assert!(!by_hand.contains(says), "{by_hand}");
+}
+
+#[test]
+fn a_pin_on_a_genga_names_its_koma_on_the_sheet() {
+    with(["cmu-135_04-front-kick"], |clips| {
+        for clip in clips {
+            let place = Place::new();
+            let said = place.said(&format!("run {} --pin 813 --out a", clip.display()));
+            let koma = said.split("a genga already, on koma ").nth(1).unwrap();
+            let koma = koma.lines().next().unwrap();
+            let keys = text(&place.files("a")["keys.csv"]);
+            let [frames, begins] = ["source_frame", "koma_first"].map(|name| column(&keys, name));
+            let at = frames.iter().position(|frame| frame == "813").unwrap();
+            assert_eq!(begins[at], koma);
+        }
+    });
 }
 
 #[test]

@@ -1,10 +1,12 @@
 //! Notes of a report: what a person should know about the clip, and about corrections without effect.
 
+use std::cmp::Reverse;
+
 use genga::edits::{Edits, Forbidden, Hold, Move};
 use genga::keys::{Cycle, Key, Origin};
 use genga::motion::Clip;
 use genga::pipeline::{Breakdown, LayerBreakdown};
-use genga::sheet::{Drawing, Layer};
+use genga::sheet::{Drawing, Exposure, Layer, Role};
 use genga::timing::{held_for, is_of_last};
 
 /// Says that a clip can be repeated, or that the seam of a loop shows.
@@ -15,6 +17,34 @@ pub fn of_cycle(clip: &Clip, is_loop: bool) -> Option<String> {
     let Cycle { pose, speed, .. } = Cycle::of_clip(clip).filter(|cycle| !cycle.is_closed())?;
     Some(format!(
         "the seam of the loop may show: the last pose is {pose:.1} % of body height and {speed:.0} % a second off the first"
+    ))
+}
+
+/// Seconds from which a held inbetween is told: so long a hold is seen as a pose.
+const LONG: f64 = 0.5;
+
+/// Says which inbetween stays longest, if it stays so long that a person would draw its pose as a genga.
+pub fn of_held_inbetween(breakdown: &Breakdown<'_>) -> Option<String> {
+    let sheet = breakdown.sheet;
+    let held = sheet.layers.iter().flat_map(|layer| {
+        let inbetween = |(_, shown): &(usize, Exposure)| {
+            let drawing = &layer.drawings[shown.drawing];
+            // Who held it by hand knows.
+            drawing.role == Role::Inbetween && !drawing.why.hold_set
+        };
+        layer.timed().filter(inbetween).map(move |(koma, shown)| (layer, koma, shown))
+    });
+    let (layer, koma, shown) = held.max_by_key(|(_, koma, shown)| (shown.koma, Reverse(*koma)))?;
+    if (shown.koma as f64) < LONG * sheet.clock.koma_rate {
+        return None;
+    }
+    let of = if sheet.layers.len() > 1 { format!("{}/", layer.name) } else { String::new() };
+    let (number, frame) =
+        (&layer.numbers()[shown.drawing], layer.drawings[shown.drawing].source.place().round());
+    let (koma, stays) = (sheet.blank.before + koma + 1, shown.koma);
+    Some(format!(
+        "an inbetween, drawing {of}{number}, is held for {stays} koma from koma {koma}; a pin at {of}{frame} makes its pose a \
+         genga"
     ))
 }
 

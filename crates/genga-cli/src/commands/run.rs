@@ -100,6 +100,7 @@ pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
     };
     let breakdown = breakdown.with_sheet(&numbering.sheet);
     notes.extend(numbering.note.clone());
+    notes.extend(run_notes::of_held_inbetween(&breakdown));
     notes.extend(run_notes::of_corrections(edits, &breakdown));
 
     working.on("writing");

@@ -16,8 +16,8 @@ const APART: f32 = 3.5;
 const LANDING: f32 = 6.0;
 /// Koma that a genga may stand from a contact and be its genga: its pose is the same to the eye.
 const NEAR: f32 = 1.5;
-/// Room of a number, and the distance of a word from the contact where there is none, in points.
-const NUMBER: f32 = 10.0;
+/// Half the room of a number, and the distance of a word from the contact where there is none, in points.
+const NUMBER: f32 = 9.5;
 const BESIDE: f32 = 2.0;
 
 /// Draws the bars at the feet of the figures, and names the contacts.
@@ -30,8 +30,8 @@ pub(super) fn draw(painter: &Painter, layout: &Layout, shown: &Shown<'_>) {
             painter.vline(span.min, y - LANDING..=y, stroke);
         }
     }
-    let (word, font) = (word(shown).0, FontId::proportional(10.0));
-    for (_, place) in contacts(layout, shown) {
+    let font = FontId::proportional(10.0);
+    for Contact { word, place, .. } in contacts(layout, shown) {
         // In the colour of the side such small letters would be hard to read.
         let ink = shown.look.ink;
         painter.text(place.center(), Align2::CENTER_CENTER, word, font.clone(), ink);
@@ -44,8 +44,8 @@ pub(super) fn explain(response: Response, layout: &Layout, shown: &Shown<'_>) ->
     let is_there = |stand: &&Stand| {
         (at.y - y(stand, layout)).abs() <= 0.5 * APART && span(stand, layout, shown).contains(at.x)
     };
-    let named = || contacts(layout, shown).into_iter().find(|(_, place)| place.contains(at));
-    let stand = stands(shown).find(is_there).or_else(|| named().map(|(stand, _)| stand));
+    let named = || contacts(layout, shown).into_iter().find(|contact| contact.is_at(at));
+    let stand = stands(shown).find(is_there).or_else(|| named().map(|contact| contact.stand));
     let Some(stand) = stand else { return response };
     let from = shown.named(shown.frame(stand.from));
     response.on_hover_text_at_pointer(match (stand.side, shown.words.is_japanese()) {
@@ -58,8 +58,23 @@ pub(super) fn explain(response: Response, layout: &Layout, shown: &Shown<'_>) ->
     })
 }
 
-/// The contacts in view that have room for their word, with its place: beside the number of the nearest genga.
-fn contacts<'a>(layout: &Layout, shown: &Shown<'a>) -> Vec<(&'a Stand, Rect)> {
+/// A contact that is named.
+struct Contact<'a> {
+    stand: &'a Stand,
+    word: &'static str,
+    /// Room of the word, and of the number beside which it stands.
+    place: Rect,
+    number: Rect,
+}
+
+impl Contact<'_> {
+    fn is_at(&self, at: Pos2) -> bool {
+        self.place.contains(at) || self.number.contains(at)
+    }
+}
+
+/// The contacts in view that have room for a word, which stands beside the number of the nearest genga.
+fn contacts<'a>(layout: &Layout, shown: &Shown<'a>) -> Vec<Contact<'a>> {
     let cells = &shown.column().cells[layout.seen(shown)];
     let genga: Vec<f32> =
         cells.iter().filter(|cell| cell.genga.is_some()).map(|cell| layout.x(cell.koma)).collect();
@@ -69,7 +84,7 @@ fn contacts<'a>(layout: &Layout, shown: &Shown<'a>) -> Vec<(&'a Stand, Rect)> {
         .filter(|(_, x)| layout.rect.x_range().contains(*x))
         .collect();
     landings.sort_unstable_by(|a, b| a.1.total_cmp(&b.1));
-    let (wide, near) = (word(shown).1, NEAR * layout.koma());
+    let near = NEAR * layout.koma();
     let mut taken = f32::NEG_INFINITY;
     let mut named = Vec::new();
     for (stand, x) in landings {
@@ -77,25 +92,30 @@ fn contacts<'a>(layout: &Layout, shown: &Shown<'a>) -> Vec<(&'a Stand, Rect)> {
         let own = genga.iter().copied().min_by(|a, b| away(a).total_cmp(&away(b)));
         let own = own.filter(|own| away(own) <= near);
         let (x, apart) = own.map_or((x, BESIDE), |own| (own, NUMBER));
-        let is_free = |from: f32| {
+        let is_free = |from: f32, wide: f32| {
             let touches = |own: &f32| *own > from - NUMBER && *own < from + wide + NUMBER;
             from >= taken && !genga.iter().any(touches)
         };
-        let beside = [x + apart, x - apart - wide];
-        if let Some(from) = beside.into_iter().find(|from| is_free(*from)) {
+        let places = words(shown).iter().flat_map(|(word, wide)| {
+            [x + apart, x - apart - wide].map(|from| (*word, from, *wide))
+        });
+        if let Some((word, from, wide)) = { places }.find(|(_, from, wide)| is_free(*from, *wide)) {
             taken = from + wide + BESIDE;
-            let middle: Pos2 = pos2(from + 0.5 * wide, layout.badges);
-            named.push((stand, Rect::from_center_size(middle, vec2(wide, 2.0 * NUMBER))));
+            let room = |middle: f32, wide: f32| {
+                Rect::from_center_size(pos2(middle, layout.badges), vec2(wide, 2.0 * NUMBER))
+            };
+            let number = own.map_or(Rect::NOTHING, |own| room(own, 2.0 * NUMBER));
+            named.push(Contact { stand, word, place: room(from + 0.5 * wide, wide), number });
         }
     }
     named
 }
 
-/// The word for a contact, and its width in points.
-fn word(shown: &Shown<'_>) -> (&'static str, f32) {
+/// The words for a contact and their widths in points, the plainest first. The short ones are for close genga.
+fn words(shown: &Shown<'_>) -> &'static [(&'static str, f32)] {
     match shown.words.is_japanese() {
-        true => ("接地", 22.0),
-        false => ("contact", 38.0),
+        true => &[("接地", 22.0), ("接", 11.0)],
+        false => &[("contact", 38.0), ("cont.", 24.0), ("c.", 9.0)],
     }
 }
 
