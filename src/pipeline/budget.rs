@@ -17,14 +17,14 @@ const COPIES: f64 = 3.0;
 
 /// Bytes allowed for any clip.
 const ANY: f64 = GIB;
-/// Further allowance, as a multiple of the clip's values. A body whose joints all move takes 7 times at 24 frames per
-/// second and 12 times at 10. Joints without channels take memory but add no values.
-const TIMES: f64 = 16.0;
+/// Further allowance, as a multiple of the clip's values. A body whose joints all move takes 10 times at 24 frames
+/// per second and 17 times at 10. Joints without channels take memory but add no values.
+const TIMES: f64 = 18.0;
 
 /// The most memory that a run may take (メモリの上限).
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Budget {
-    /// In bytes. Default: 1 GiB plus 16 times the values of the clip.
+    /// In bytes. Default: 1 GiB plus 18 times the values of the clip.
     pub bytes: Option<f64>,
 }
 

@@ -194,13 +194,26 @@ fn the_summary_says_what_each_correction_did() {
 }
 
 #[test]
+fn another_part_of_the_take_than_the_recipes_run_is_told() {
+    let place = Place::new();
+    let says = "a recipe holds no part of a take: --trim 20..60 runs that part again";
+    place.done("run data/kick.bvh --trim 20..60 --out a");
+    assert!(place.said("run data/kick.bvh --recipe a/recipe.toml --out b").contains(says));
+    assert!(place.said("run data/kick.bvh --recipe a/recipe.toml --out a").contains(says));
+    let same = place.said("run data/kick.bvh --recipe b/recipe.toml --out b");
+    assert!(!same.contains("part of a take"), "{same}");
+    let other = place.said("run data/pitch.bvh --recipe b/recipe.toml --out c");
+    assert!(!other.contains("part of a take"), "{other}");
+}
+
+#[test]
 fn a_long_held_inbetween_is_told_and_a_pin_makes_it_a_genga() {
     let place = Place::new();
     let says = "an inbetween, drawing ";
     assert!(!place.said("run data/kick.bvh --out a").contains(says));
     let held = place.said("run data/kick.bvh --set spacing.drift=1 --out b");
     assert!(
-        held.contains(&format!("{says}26, is held for 13 koma from koma 80; a pin at ")),
+        held.contains(&format!("{says}26, is held for 13 koma from koma 78; a pin at ")),
         "{held}"
     );
     let frame = held.split("; a pin at ").nth(1).unwrap().split(' ').next().unwrap();

@@ -145,7 +145,8 @@ fn presets_are_points_between_which_goals_go() {
 #[test]
 fn the_other_settings_are_expert_with_the_first_sentence_of_their_help() {
     let mut table = Table::plain_kick();
-    let sentence = "Koma per drawing: 1 is on ones, 2 on twos, 3 on threes.";
+    let sentence =
+        "Koma per drawing: 1 is on ones, 2 on twos, 3 on threes, where genga leave room.";
     assert!(!table.says(sentence));
     table.harness.get_by_label("Expert").click();
     table.harness.run();

@@ -87,12 +87,12 @@ pub(super) struct Reading {
     /// nan and inf get the value before them, and surplus values of a row are dropped. A note reports each repair.
     #[arg(long, conflicts_with = "strict", help_heading = READING)]
     repair: bool,
-    /// Refuse a file with warnings, but for W_LEAD_IN and W_FORMAT.
+    /// Refuse faults of the file; what is said of the motion passes.
     #[arg(long, help_heading = READING)]
     strict: bool,
     /// Memory limit in GiB.
     ///
-    /// Of the work [default: 1 plus 16 times the values of the clip], and of input from a pipe [default: 1].
+    /// Of the work [default: 1 plus 18 times the values of the clip], and of input from a pipe [default: 1].
     #[arg(long, value_name = "GIB", value_parser = gib, help_heading = READING)]
     memory: Option<f64>,
 }

@@ -40,6 +40,7 @@ mod kept;
 mod marked_keys;
 mod numbers;
 mod outcomes;
+mod part_of_take;
 mod paths;
 mod pin_args;
 mod plan;

@@ -168,7 +168,24 @@ def cut(path, sheet):
                 assert (path.parent / kind / column["folder"] / name).is_file(), name
 
 
+def tvpaint(path, sheet):
+    """Every koma has the pictures that the sheet shows, and they are there: the folder is below the file's own."""
+    rows = list(csv.reader(path.read_text(encoding="utf-8").splitlines(), skipinitialspace=True))
+    heads = {row[0]: row[1:] for row in rows if row[0].startswith("#") and not row[0][1:].isdigit()}
+    shown = [row[1:] for row in rows if row[0][1:].isdigit()]
+    assert [row[0] for row in rows[-len(shown):]] == [f"#{koma:05}" for koma in range(sheet.length)]
+    wide, high = Image.open(next(path.parent.rglob("*.png"))).size
+    sizes = rows[2][1:5]
+    assert [int(size) for size in sizes] == [wide, high, sheet.length, len(heads["#Layers"])], rows[2]
+    for pictures in shown:
+        for folder, picture in zip(heads["#Folder"], pictures, strict=True):
+            kind, below = folder.split("/", 1)
+            assert kind == path.parent.name, folder
+            assert not picture or (path.parent / below / picture).is_file(), picture
+
+
 READERS = [
+    (r"[^/]+/(genga|douga)/[^/]*\.csv", tvpaint),
     (r"sheet\.json", schema),
     (r".*/cut\.json", cut),
     (r".*\.json", json_file),

@@ -13,7 +13,7 @@ use crate::format_args::{FormatArgs, FormatName, Formats, all_made, help, long_h
 use crate::numbers::Numbering;
 use crate::plan::{Plan, PlanArgs};
 use crate::results::{OWN, Outcome, Results};
-use crate::{camera_args, cut_args, files, kept, outcomes, paths, pin_args};
+use crate::{camera_args, cut_args, files, kept, outcomes, part_of_take, paths, pin_args};
 use genga::edits::Edits;
 use genga::pipeline::Breakdown;
 use genga::recipe::Recipe;
@@ -87,6 +87,10 @@ pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
     notes.extend(run_notes::of_cycle(engine.clip(), plan.recipe.r#loop));
     let place = Folder::look(&folder, args.formats.over());
     place.check(&of)?;
+    let recipe = args.plan.corrections.settings.recipe.as_deref().and_then(Path::parent);
+    let beside = recipe.filter(|beside| Folder::look(beside, args.formats.over()).is_of(&of));
+    let own = place.is_of(&of).then_some(&*folder);
+    notes.extend(beside.or(own).and_then(|before| part_of_take::other(before, engine.clip())));
     let keeps =
         !args.fresh && args.plan.corrections.settings.recipe.is_none() && place.has_run_of(&of);
     let kept_corrections = if keeps { kept::keep(&mut plan, &folder, &engine)? } else { vec![] };
