@@ -26,7 +26,8 @@ use crate::work;
 /// either order, whatever their values), all other settings are the paper's, `Recipe.table_1()`; with any other axes,
 /// and with `filter.width` alone, they are those of `run`, `Recipe()`. A recipe that is given replaces either, and
 /// `settings` are applied to it. Returns a `genga.Study`: a dict of columns with one row per combination, whose
-/// attribute `recipe` is the recipe that was used. Its columns are both settings, then one for each of `measures`
+/// attribute `recipe` is the recipe that was used and whose `notes` say what frames on an axis are in seconds, at each
+/// frame rate of the clips; of several rates they are warnings too. Its columns are both settings, then one for each of `measures`
 /// (a list, or text such as "union,total"): turns, genga, fills, union, total, drawings, drawings_per_second,
 /// genga_per_second, longest_hold, held_koma, peak_ssd and median_ssd. By default they are the first five, or all if an
 /// axis is a setting of the sheet (`spacing`, `omission`). The column of a setting has numbers if all of its values are plain
@@ -71,27 +72,34 @@ pub fn study<'py>(
     let (clips, are_several) = several(clip)?;
     let names: Vec<String> = clips.iter().map(|clip| clip.get().cut()).collect();
     let names = are_several.then_some(&*names);
+    let rates: Vec<_> = clips.iter().map(|clip| clip.get().motion.rate()).collect();
+    let notes = study.in_seconds(&rates);
+    if rates.iter().any(|rate| *rate != rates[0]) {
+        notes.iter().try_for_each(|note| warned(py, note))?;
+    }
     if per_joint {
         let joints: Vec<Vec<String>> = clips.iter().map(|clip| clip.get().joints()).collect();
         let counts = each(py, &study, &clips, |study, motion, stop| {
             study.joints_while(motion, || !stop.is_asked())
         })?;
         let table = of_joints(py, (&study, names), &joints, &counts)?;
-        return with_recipe(&table, study.recipe);
+        return with_recipe(&table, study.recipe, notes);
     }
     let grids = each(py, &study, &clips, |study, motion, stop| {
         study.run_while(motion, || !stop.is_asked())
     })?;
-    with_recipe(&of_cells(py, (&study, names), &grids)?, study.recipe)
+    with_recipe(&of_cells(py, (&study, names), &grids)?, study.recipe, notes)
 }
 
-/// Builds the `genga.Study` of a table and the recipe that was used.
+/// Builds the `genga.Study` of a table, the recipe that was used and its notes.
 fn with_recipe<'py>(
     table: &Bound<'py, PyDict>,
     recipe: genga::recipe::Recipe,
+    notes: Vec<String>,
 ) -> PyResult<Bound<'py, PyAny>> {
     let made = table.py().import("genga._study")?.getattr("Study")?.call1((table,))?;
     made.setattr("recipe", Recipe { recipe, ..Recipe::default() })?;
+    made.setattr("notes", notes)?;
     Ok(made)
 }
 

@@ -52,6 +52,14 @@ def same_files(result, out, *formats):
     assert result.recipe.to_toml() == (out / "program" / "recipe.toml").read_text(encoding="utf-8")
 
 
+def told(call):
+    """What a call returns, and its warnings."""
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        made = call()
+    return made, [str(warning.message) for warning in caught]
+
+
 @pytest.mark.parametrize("name", CLIPS)
 def test_the_same_bytes_as_the_program_on_real_clips(name, tmp_path):
     path = REAL / f"{name}.bvh"
@@ -707,6 +715,16 @@ def same_table(a, b):
     assert list(a) == list(b)
     for name in a:
         assert a[name].tolist() == b[name].tolist(), name
+
+
+def test_clips_of_several_rates_are_told_in_seconds(clip):
+    fast = genga.read(KICK, fps=120)
+    table, notes = told(lambda: genga.study([clip, fast]))
+    for says in ["0.417s, 0.833s, 1.25s at 24 a second", "0.083s, 0.167s, 0.25s at 120 a second"]:
+        assert any(note.startswith("filter.width: 10, 20, 30 frames are ") and says in note for note in notes), notes
+    assert table.notes == notes
+    one, notes = told(lambda: genga.study(clip))
+    assert len(one.notes) == 2 and notes == []
 
 
 def test_the_same_axes_are_the_same_study_however_they_are_given(clip):

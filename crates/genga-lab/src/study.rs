@@ -10,6 +10,7 @@ mod measure;
 mod noise;
 mod plateau;
 mod range;
+mod seconds;
 mod steadiness;
 mod sweep;
 

@@ -1,7 +1,6 @@
 //! `genga study`: counts keys and drawings while one or two settings vary.
 
 mod caption;
-mod seconds;
 
 use std::path::PathBuf;
 use std::slice::from_ref;
@@ -179,7 +178,8 @@ pub(super) fn run(args: &StudyArgs, words: &Words) -> Result<(), Failure> {
         (None, false) => "that of genga run".into(),
     };
     words.say(format_args!("recipe      設定       {begins}"));
-    seconds::lines(&study, &rates).iter().for_each(|line| words.say(line));
+    let seconds = study.in_seconds(&rates);
+    seconds.iter().for_each(|line| words.say(format_args!("seconds     {line}")));
     if tells_turns_apart(&study.measures) {
         words.say(TURNS);
     }

@@ -1,27 +1,29 @@
 //! Says what frames on an axis are in seconds: a filter of 10 frames is not the same at 100 and at 30 a second.
 
+use crate::study::{Axis, Study, is_table_1};
 use genga::recipe::Kind;
 use genga::time::{FrameRate, Span};
-use genga_lab::study::{Axis, Study, is_table_1};
 
 /// Most values of an axis that are listed; of more, only the first and the last are named.
 const MOST: usize = 6;
 
-/// Returns a line for each axis of spans and each rate of the clips.
-pub(super) fn lines(study: &Study, rates: &[FrameRate]) -> Vec<String> {
-    let mut different: Vec<FrameRate> = Vec::new();
-    for rate in rates {
-        if !different.contains(rate) {
-            different.push(*rate);
+impl Study {
+    /// Returns a line for each axis of spans and each rate of the clips.
+    pub fn in_seconds(&self, rates: &[FrameRate]) -> Vec<String> {
+        let mut different: Vec<FrameRate> = Vec::new();
+        for rate in rates {
+            if !different.contains(rate) {
+                different.push(*rate);
+            }
         }
+        let axes = [Some(&self.x), self.y.as_ref()].into_iter().flatten();
+        let of_axis = |axis| different.iter().filter_map(move |rate| line(axis, *rate));
+        let mut lines: Vec<String> = axes.flat_map(of_axis).collect();
+        if let (true, Some(last)) = (is_table_1(&self.x, self.y.as_ref()), lines.last_mut()) {
+            last.push_str(" (the paper: 10 frames at 100 a second are 0.1s)");
+        }
+        lines
     }
-    let axes = [Some(&study.x), study.y.as_ref()].into_iter().flatten();
-    let of_axis = |axis| different.iter().filter_map(move |rate| line(axis, *rate));
-    let mut lines: Vec<String> = axes.flat_map(of_axis).collect();
-    if let (true, Some(last)) = (is_table_1(&study.x, study.y.as_ref()), lines.last_mut()) {
-        last.push_str(" (the paper: 10 frames at 100 a second are 0.1s)");
-    }
-    lines
 }
 
 /// `None` for an axis without frames.
@@ -35,7 +37,7 @@ fn line(axis: &Axis, rate: FrameRate) -> Option<String> {
     let (frames, seconds) =
         (frames.iter().map(f64::to_string).collect(), frames.iter().map(seconds).collect());
     let (frames, seconds) = (listed(frames), listed(seconds));
-    Some(format!("seconds     {}: {frames} frames are {seconds} at {rate} a second", axis.name()))
+    Some(format!("{}: {frames} frames are {seconds} at {rate} a second", axis.name()))
 }
 
 /// Seconds to the millisecond.
