@@ -21,6 +21,7 @@ use pyo3::types::{PyBytes, PyDict, PyType};
 use crate::arrays::{self, Arrays, Places};
 use crate::error::{asked_wrongly, in_python, raised, raised_of};
 use crate::pickle::{Head, Reduced};
+use crate::words::whole;
 use crate::work;
 
 /// A motion clip of F frames and J joints.
@@ -147,7 +148,7 @@ impl Clip {
         root: Option<&Bound<'_, PyAny>>,
         translations: Option<&Bound<'_, PyAny>>,
         tips: Option<&Bound<'_, PyAny>>,
-        first: usize,
+        #[pyo3(from_py_with = first_of)] first: usize,
         up: Option<&str>,
         metres: Option<f64>,
         name: &str,
@@ -358,6 +359,10 @@ impl Clip {
             self.rate()
         )
     }
+}
+
+fn first_of(given: &Bound<'_, PyAny>) -> PyResult<usize> {
+    whole("first", given)
 }
 
 /// Names of the axes.

@@ -8,7 +8,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyString, PyTuple};
 
 use crate::error::raised;
-use crate::words::word;
+use crate::words::{unexpected, word};
 
 /// Each correction as Python writes it.
 const PINS: &str = "a frame, as in 42, (42, \"contact\") or \"42:contact@0.5\"";
@@ -18,7 +18,7 @@ const HOLDS: &str = "a frame and a number of koma, as in (41, 6) or \"41:6\"";
 
 /// Corrections given as arguments, besides those of the recipe. Each is a frame, a tuple, or text as in the program:
 /// `42:contact@0.5`.
-#[derive(FromPyObject, Default)]
+#[derive(Default)]
 pub struct Corrections<'py> {
     /// Frames that are keys whatever is found.
     pub pins: Vec<Bound<'py, PyAny>>,
@@ -68,6 +68,39 @@ fn wrongly(name: &str, expected: &str, value: &Bound<'_, PyAny>, error: Error) -
         (other, _) => return raised(py, other),
     };
     raised(py, Error::setting(name, message))
+}
+
+/// Takes a list of corrections, which are looked at later; `name` is that of the argument.
+fn listed<'py>(
+    name: &str,
+    one: &str,
+    given: &Bound<'py, PyAny>,
+) -> PyResult<Vec<Bound<'py, PyAny>>> {
+    let wrongly = || unexpected(name, &format!("a list, each of {one}"), given);
+    if given.is_instance_of::<PyString>() {
+        return Err(wrongly());
+    }
+    given.try_iter().map_err(|_| wrongly())?.collect()
+}
+
+/// Takes the argument `pins`.
+pub fn pins<'py>(given: &Bound<'py, PyAny>) -> PyResult<Vec<Bound<'py, PyAny>>> {
+    listed("pins", PINS, given)
+}
+
+/// Takes the argument `forbid`.
+pub fn forbid<'py>(given: &Bound<'py, PyAny>) -> PyResult<Vec<Bound<'py, PyAny>>> {
+    listed("forbid", FORBID, given)
+}
+
+/// Takes the argument `moves`.
+pub fn moves<'py>(given: &Bound<'py, PyAny>) -> PyResult<Vec<Bound<'py, PyAny>>> {
+    listed("moves", MOVES, given)
+}
+
+/// Takes the argument `holds`.
+pub fn holds<'py>(given: &Bound<'py, PyAny>) -> PyResult<Vec<Bound<'py, PyAny>>> {
+    listed("holds", HOLDS, given)
 }
 
 /// Joins a tuple into the program's notation.

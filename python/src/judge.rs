@@ -17,7 +17,7 @@ use crate::error::{asked_wrongly, raised, warned};
 use crate::recipe::Recipe;
 use crate::reference::ReferenceKeys;
 use crate::table::{Column, plain, table};
-use crate::words::{settings, word};
+use crate::words::{settings, unexpected, word};
 use crate::work;
 
 /// Varies one or two settings and measures the result for each combination. `x` and `y` are a name with its values:
@@ -351,7 +351,7 @@ pub fn compare<'py>(
     py: Python<'py>,
     clip: &Bound<'py, PyAny>,
     recipe: Option<Recipe>,
-    keys: Vec<usize>,
+    #[pyo3(from_py_with = counts)] keys: Vec<usize>,
     noise: f64,
     settings: Option<&Bound<'py, PyDict>>,
 ) -> PyResult<Bound<'py, PyDict>> {
@@ -381,4 +381,10 @@ pub fn compare<'py>(
             ("steady", number(|row| row.steady)),
         ],
     )
+}
+
+/// Takes the argument `keys` of `compare`.
+fn counts(given: &Bound<'_, PyAny>) -> PyResult<Vec<usize>> {
+    let expected = "a list of whole numbers, 1 or more, as in [8, 16]";
+    given.extract().map_err(|_| unexpected("keys", expected, given))
 }

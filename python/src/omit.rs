@@ -17,7 +17,7 @@ use crate::clip::{Clip, taken};
 use crate::error::{raised, warned};
 use crate::pickle::Reduced;
 use crate::result::Sheet;
-use crate::words::word;
+use crate::words::{unexpected, whole, word};
 use crate::work;
 
 /// The result of `omit`: a row of the second paper's Table 1, and what it counts.
@@ -48,7 +48,7 @@ pub fn omit(
     clip: &Bound<'_, PyAny>,
     naka_nashi: Option<&Bound<'_, PyAny>>,
     koma_dori: Option<&Bound<'_, PyAny>>,
-    max_hold: usize,
+    #[pyo3(from_py_with = max_hold_of)] max_hold: usize,
     all_at_once: bool,
     koma_dori_first: bool,
     keep_length: bool,
@@ -90,6 +90,10 @@ pub fn omit(
         sheet: Py::new(py, Sheet::new(py, &sheet)?)?,
         limited: Py::new(py, Clip::new(Arc::new(stepped), file, Vec::new()))?,
     })
+}
+
+fn max_hold_of(given: &Bound<'_, PyAny>) -> PyResult<usize> {
+    whole("max_hold", given)
 }
 
 #[pymethods]

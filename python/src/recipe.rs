@@ -8,7 +8,7 @@ use pyo3::exceptions::PyKeyError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyType};
 
-use crate::corrections::Corrections;
+use crate::corrections::{self, Corrections};
 use crate::error::raised;
 use crate::pickle::Reduced;
 use crate::targets::TARGETS;
@@ -142,10 +142,10 @@ impl Recipe {
     #[pyo3(signature = (*, pins=vec![], forbid=vec![], moves=vec![], holds=vec![], only_pins=false))]
     fn correct<'py>(
         &mut self,
-        pins: Vec<Bound<'py, PyAny>>,
-        forbid: Vec<Bound<'py, PyAny>>,
-        moves: Vec<Bound<'py, PyAny>>,
-        holds: Vec<Bound<'py, PyAny>>,
+        #[pyo3(from_py_with = corrections::pins)] pins: Vec<Bound<'py, PyAny>>,
+        #[pyo3(from_py_with = corrections::forbid)] forbid: Vec<Bound<'py, PyAny>>,
+        #[pyo3(from_py_with = corrections::moves)] moves: Vec<Bound<'py, PyAny>>,
+        #[pyo3(from_py_with = corrections::holds)] holds: Vec<Bound<'py, PyAny>>,
         only_pins: bool,
     ) -> PyResult<()> {
         Corrections { pins, forbid, moves, holds, only_pins }.add_to(&mut self.edits)

@@ -13,6 +13,7 @@ use crate::clip::Given;
 use crate::error::{raised, raised_of};
 use crate::judge::text_of;
 use crate::result::Result;
+use crate::words::unexpected;
 
 /// What is accepted, for messages.
 const EXPECTED: &str =
@@ -64,11 +65,5 @@ fn frame(item: &Bound<'_, PyAny>) -> PyResult<Frame> {
 }
 
 fn wrongly(given: &Bound<'_, PyAny>) -> PyErr {
-    match given.repr() {
-        Ok(found) => {
-            let message = format!("expected {EXPECTED}, found {found}");
-            raised(given.py(), Error::setting("reference", message))
-        }
-        Err(error) => error,
-    }
+    unexpected("reference", EXPECTED, given)
 }

@@ -18,7 +18,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict, PyType};
 
 use crate::clip::{Clip, taken};
-use crate::corrections::Corrections;
+use crate::corrections::{self, Corrections};
 use crate::error::{in_python, raised, warned};
 use crate::files::{Files, Handed};
 use crate::pickle::Reduced;
@@ -98,10 +98,10 @@ pub fn run<'py>(
     py: Python<'py>,
     clip: &Bound<'py, PyAny>,
     recipe: Option<Recipe>,
-    pins: Vec<Bound<'py, PyAny>>,
-    forbid: Vec<Bound<'py, PyAny>>,
-    moves: Vec<Bound<'py, PyAny>>,
-    holds: Vec<Bound<'py, PyAny>>,
+    #[pyo3(from_py_with = corrections::pins)] pins: Vec<Bound<'py, PyAny>>,
+    #[pyo3(from_py_with = corrections::forbid)] forbid: Vec<Bound<'py, PyAny>>,
+    #[pyo3(from_py_with = corrections::moves)] moves: Vec<Bound<'py, PyAny>>,
+    #[pyo3(from_py_with = corrections::holds)] holds: Vec<Bound<'py, PyAny>>,
     only_pins: bool,
     targets: Option<&Bound<'py, PyAny>>,
     name: Option<String>,

@@ -1,8 +1,11 @@
 //! Converts Python values to the words that settings take, and back.
 
+use genga::Error;
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyList, PyString, PyTuple};
+
+use crate::error::raised;
 
 /// Converts a value to a recipe's word: `0.2s`, `true`, `none`, `[{ name = "A", joints = ["Hips"] }]`.
 pub fn word(value: &Bound<'_, PyAny>) -> PyResult<String> {
@@ -38,6 +41,22 @@ fn written(value: &Bound<'_, PyAny>) -> PyResult<String> {
     }
     // Numbers of Python and of NumPy alike.
     Ok(value.str()?.to_cow()?.into_owned())
+}
+
+/// Takes a whole number that is 0 or more; `name` is that of the argument.
+pub fn whole(name: &str, given: &Bound<'_, PyAny>) -> PyResult<usize> {
+    given.extract().map_err(|_| unexpected(name, "a whole number, 0 or more", given))
+}
+
+/// Builds the exception of an argument that is not as expected.
+pub fn unexpected(name: &str, expected: &str, given: &Bound<'_, PyAny>) -> PyErr {
+    match given.repr() {
+        Ok(found) => {
+            let message = format!("expected {expected}, found {found}");
+            raised(given.py(), Error::setting(name, message))
+        }
+        Err(error) => error,
+    }
 }
 
 /// Converts a word to a Python value: a number, True, None, or the text itself.

@@ -1131,6 +1131,35 @@ def test_clips_and_results_go_through_pools_of_processes(method, clip):
             pool.apply_async(genga.run, (clip,), {"pins": [1000]}).get(timeout=120)
 
 
+@pytest.mark.parametrize(
+    "call, says",
+    [
+        (lambda clip: genga.compare(clip, keys=[-1]), r"keys: expected a list of whole numbers, .* found \[-1\]"),
+        (lambda clip: genga.compare(clip, keys=5), "keys: expected a list of whole numbers, .* found 5"),
+        (lambda clip: genga.omit(clip, max_hold=-1), "max_hold: expected a whole number, 0 or more, found -1"),
+        (lambda clip: genga.run(clip, pins=40), "pins: expected a list, each of a frame, .* found 40"),
+        (lambda clip: genga.run(clip, pins="40"), "pins: expected a list, each of a frame, .* found '40'"),
+        (lambda clip: genga.run(clip, holds=40), "holds: expected a list, .* found 40"),
+        (lambda clip: genga.Recipe().correct(moves=4), "moves: expected a list, .* found 4"),
+        (
+            lambda clip: genga.Clip(
+                names=clip.names,
+                parents=clip.parents,
+                offsets=clip.offsets,
+                rotations=clip.rotations,
+                root=clip.positions[:, 0],
+                rate=clip.rate,
+                first=-3,
+            ),
+            "first: expected a whole number, 0 or more, found -3",
+        ),
+    ],
+)
+def test_a_wrong_argument_is_named(call, says, clip):
+    with pytest.raises(genga.Error, match=says):
+        call(clip)
+
+
 def test_what_is_lost_or_does_not_count_is_told_as_a_warning(clip):
     with pytest.warns(UserWarning, match="W_VMD_LEFT_OUT"):
         genga.run(clip).to_vmd()
