@@ -11,7 +11,8 @@ use crate::error::raised;
 use crate::words::{unexpected, word};
 
 /// Each correction as Python writes it.
-const PINS: &str = "a frame, as in 42, (42, \"contact\") or \"42:contact@0.5\"";
+const PINS: &str =
+    "a frame, as in 42, (42, \"contact\"), (42, \"contact\", 0.5) or \"42:contact@0.5\"";
 const FORBID: &str = "a frame or a range without its end, as in 42, (120, 140) or \"120..140\"";
 const MOVES: &str = "two frames, as in (41, 42) or \"41:42\"";
 const HOLDS: &str = "a frame and a number of koma, as in (41, 6) or \"41:6\"";
@@ -36,7 +37,7 @@ impl Corrections<'_> {
     /// Adds them to the existing corrections.
     pub fn add_to(&self, edits: &mut Edits) -> PyResult<()> {
         for pin in &self.pins {
-            let made = Pin::parse(&joined(pin, ":")?);
+            let made = pin_of(pin)?;
             edits.pins.push(made.map_err(|error| wrongly("pins", PINS, pin, error))?);
         }
         for frames in &self.forbid {
@@ -112,4 +113,18 @@ fn joined(value: &Bound<'_, PyAny>, between: &str) -> PyResult<String> {
         }
         Err(_) => word(value),
     }
+}
+
+/// Takes a pin: a tuple is a frame and a name, and may end with a weight.
+fn pin_of(pin: &Bound<'_, PyAny>) -> PyResult<Result<Pin, Error>> {
+    let Ok(parts) = pin.cast::<PyTuple>() else { return Ok(Pin::parse(&word(pin)?)) };
+    let (frame, name, weight) = match parts.extract::<(Bound<'_, PyAny>, String)>() {
+        Ok((frame, name)) => (frame, name, None),
+        Err(_) => match parts.extract::<(Bound<'_, PyAny>, String, f64)>() {
+            Ok((frame, name, weight)) => (frame, name, Some(weight)),
+            Err(_) => return Ok(Err(Error::Edits { message: String::new() })),
+        },
+    };
+    let name = Some(name.trim().to_owned()).filter(|name| !name.is_empty());
+    Ok(Pin::parse(&word(&frame)?).map(|pin| Pin { name, weight, ..pin }))
 }

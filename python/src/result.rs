@@ -87,7 +87,7 @@ impl Begun {
 
 /// Finds the key drawings of a clip, or of a motion file, and times them. Settings have the recipe's names: `keys={"min_price": 15}`,
 /// `keys__min_price=15` and `**{"keys.min_price": 15}` are the same. `pins` are frames that are always keys (42,
-/// (42, "contact"), "42:contact@0.5"); `forbid` are frames without a key nearby (42, "120..140"); `moves` are pairs
+/// (42, "contact"), (42, "contact", 0.5) with a spacing weight, "42:contact@0.5"); `forbid` are frames without a key nearby (42, "120..140"); `moves` are pairs
 /// (from, to), `holds` pairs (frame, koma). `targets` are wanted properties of the sheet, `{"keys": 9}`,
 /// `{"drawings_per_second": 6}` or `{"max_error": 8}` (% of body height), for which genga searches settings. `name` is
 /// the name of the cut.

@@ -459,6 +459,18 @@ def test_wrong_corrections_are_told_in_python(corrections, says, clip):
         genga.run(clip, **corrections)
 
 
+def test_a_pin_has_a_frame_a_name_and_a_weight(clip):
+    def pinned(*pins):
+        recipe = genga.Recipe()
+        recipe.correct(pins=pins)
+        return recipe.to_toml()
+
+    assert pinned((40, "a", 0.5)) == pinned("40:a@0.5") != pinned((40, "a"))
+    for wrong in [(40,), (40, 0.5), (40, None), (40, "a", "b"), (40, "a", 0.5, 1), ()]:
+        with pytest.raises(genga.Error, match="pins: expected a frame, as in 42, .* found "):
+            pinned(wrong)
+
+
 @pytest.mark.parametrize(
     "function, arguments, says",
     [
