@@ -416,7 +416,14 @@ pub enum Given<'py> {
     Path(PathBuf),
 }
 
-/// Reads a motion file of any supported format, from a path or from its bytes, as the program does. Removes a T-pose
+/// Whether what was given as a path is the text of a BVH.
+fn is_bvh(path: &Path) -> bool {
+    let text = path.to_str().unwrap_or_default().trim_start_matches('\u{feff}').trim_start();
+    text.starts_with("HIERARCHY") && text.contains(['\n', '\r'])
+}
+
+/// Reads a motion file of any supported format, from a path or from its bytes, as the program does, and a BVH from its
+/// text too. Removes a T-pose
 /// before or after the motion unless `keep_lead_in`. Unless `keep_glitches`, replaces single frames that fly off, and
 /// removes ends in which the tracker comes from the origin. `trim=(A, B)` keeps frames A to B, without B. `name` is the
 /// clip's name. `fps` replaces the rate of the file. `root` is the root of the one tree of joints to read, `take` the
@@ -449,6 +456,7 @@ pub fn read(
     let options =
         file::Options { strict, repair, fps, root, take, up, skeleton, ..file::Options::default() };
     let (path, bytes) = match source {
+        Given::Path(path) if is_bvh(&path) => (None, path.into_os_string().into_encoded_bytes()),
         Given::Path(path) => (Some(path), Vec::new()),
         // The bytes are copied, because the work goes on without the lock that keeps them alive.
         Given::Bytes(bytes) => (None, bytes.as_bytes().to_vec()),

@@ -14,6 +14,19 @@ create_exception!(
     "An error, with the way to fix it. `file`, `line` and `column` (from 1) say where; each may be None."
 );
 
+/// Most characters of a text that an error repeats.
+const MOST_OF_TEXT: usize = 80;
+
+/// Length of a name, in bytes, from which on no system has a file of that name.
+const NO_NAME: usize = 256;
+
+/// Whether what was given as a path is more likely the text of a file.
+fn is_text(path: &str) -> bool {
+    let is_long = |name: &str| name.len() >= NO_NAME;
+    path.chars().count() > MOST_OF_TEXT
+        && (path.contains(['\n', '\r']) || path.split(['/', '\\']).any(is_long))
+}
+
 /// Builds the exception of an error that no file caused.
 pub fn raised(py: Python<'_>, error: genga::Error) -> PyErr {
     raised_of(py, error, None)
@@ -24,6 +37,11 @@ pub fn raised_of(py: Python<'_>, error: genga::Error, file: Option<&Path>) -> Py
     if let genga::Error::Io { path, source } = &error {
         let path = path.display().to_string();
         return match source.raw_os_error() {
+            Some(number) if is_text(&path) => {
+                let begin: String = path.chars().take(MOST_OF_TEXT - 1).collect();
+                let told = format!("{source}; the text of a file is given as bytes, text.encode()");
+                PyOSError::new_err((number, told, begin + "…"))
+            }
             // Python picks the subclass, such as FileNotFoundError, by the number.
             Some(number) => PyOSError::new_err((number, source.to_string(), path)),
             None => PyOSError::new_err(in_python(&error.to_string())),

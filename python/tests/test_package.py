@@ -427,6 +427,17 @@ def test_layers_can_be_named_from_python(clip):
     assert set(genga.run(clip, layers=layers).keys["layer"]) == {"A", "B"}
 
 
+def test_the_text_of_a_bvh_is_read_and_no_text_is_repeated(clip):
+    text = clip.to_bvh()
+    assert genga.read(text).to_bvh() == text
+    assert genga.run(text).to_json() == genga.run(genga.read(text.encode())).to_json()
+    result = genga.run(clip)
+    for call in (lambda: genga.read("# " + text), lambda: genga.evaluate(clip, result, reference="# " + text)):
+        with pytest.raises(OSError, match="given as bytes") as raised:
+            call()
+        assert len(str(raised.value)) < 300 and len(raised.value.filename) == 80
+
+
 def test_errors_say_file_line_and_column(tmp_path):
     broken = tmp_path / "broken.bvh"
     broken.write_text(KICK.read_text().replace("JOINT", "JIONT", 1))
