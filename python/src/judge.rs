@@ -280,9 +280,16 @@ fn of_joints<'py>(
 /// Evaluates a sheet (a `genga.Result`, the dict of `Result.to_json()`, or a `sheet.json` as a path, its text or bytes)
 /// against its clip. `reference` are key frames that somebody else chose: whole numbers, another `genga.Result`, or a path or the
 /// bytes of a file of keys: a `sheet.json`, a CSV with a column `frame` or `source_frame`, or one frame per line. A key within `tolerance`
-/// koma of one counts as the same. Those beyond the sheet do not count, with a warning. Returns nested dicts; the scores against `reference` are in it under `timing` (`f1`, `precision`, `recall`
-/// and more), which is None without `reference`. Errors are in % of body height. Anything else as a sheet raises
-/// `TypeError`.
+/// koma of one counts as the same. Those beyond the sheet and repeated ones do not count, with a warning. Nor do keys
+/// within the first or last koma of the clip, in `reference` and in `found`, for both ends are always drawn; a warning
+/// tells of those in `reference` that are neither the clip's ends nor those of the sheet. Of several layers the screen
+/// is judged together, keys and pace by the first, with a warning; so are the keys of a `reference` that is a result.
+///
+/// Returns nested dicts. Errors are in % of body height. `timing` has the scores against `reference`, and is None
+/// without it: `reference` and `found`, the numbers of keys; `pairs` of them that match one to one; `precision`, the
+/// share of those found that are in a pair; `recall`, that of the reference; `f1`, the harmonic mean of both;
+/// `mean_off`, the mean distance in koma from a reference key to the nearest found one, over all reference keys,
+/// whatever the tolerance; `off_95`, its 95th percentile. Anything else as a sheet raises `TypeError`.
 #[pyfunction]
 #[pyo3(signature = (clip, sheet, *, reference=None, tolerance=1.0))]
 pub fn evaluate<'py>(
@@ -304,9 +311,9 @@ pub fn evaluate<'py>(
     let (sheet, source, drawn, notes) = fitted.map_err(|error| raised(py, error))?;
     let reference = reference.map(|keys| keys.frames(py, &source)).transpose()?;
     let drawn = drawn.unwrap_or(source);
+    let others = Evaluation::notes(&drawn, &sheet, reference.as_deref());
     notes.iter().try_for_each(|note| warned(py, note))?;
-    let beyond = reference.as_deref().and_then(|keys| Evaluation::beyond(&drawn, keys));
-    beyond.iter().try_for_each(|note| warned(py, note))?;
+    others.iter().try_for_each(|note| warned(py, note))?;
     let made =
         work::done(py, move |_| Evaluation::new(&drawn, &sheet, reference.as_deref(), tolerance))?;
     plain(py, &made.map_err(|error| raised(py, error))?)

@@ -888,6 +888,42 @@ def test_reference_keys_beyond_the_sheet_are_told_as_a_warning(clip):
         assert genga.evaluate(clip, result, reference=[20, 46]) == found
 
 
+def test_its_own_keys_are_all_found_and_those_beside_an_end_are_told():
+    # At 100 frames a second the last koma begins before the last frame.
+    clip = genga.read(ROOT / "data" / "kuroda-pitch.bvh")
+    result = genga.run(clip)
+    keys, last = result.keys["frame"], clip.first + len(clip) - 1
+    assert result.keys["reason"][-1] == "end" and last - 4 < keys[-1] < last
+    found, notes = told(lambda: genga.evaluate(clip, result, reference=keys))
+    assert found["timing"]["reference"] == found["timing"]["found"] == int((result.keys["reason"] != "end").sum())
+    assert (found["timing"]["recall"], notes) == (1.0, [])
+    assert genga.evaluate(clip, result, reference=result) == found
+    beside, notes = told(lambda: genga.evaluate(clip, result, reference=[*keys, keys[-1] + 1]))
+    assert beside == found
+    says = f"1 reference key before frame {clip.first + 4} or from frame {keys[-1]} on, in the first or last koma, do"
+    assert len(notes) == 1 and notes[0].startswith(says), notes
+
+
+def test_a_repeated_reference_key_counts_once(clip, tmp_path):
+    result = genga.run(clip)
+    key = int(result.keys["frame"][1])
+    once, notes = told(lambda: genga.evaluate(clip, result, reference=[key]))
+    assert notes == []
+    table = tmp_path / "keys.txt"
+    table.write_text(f"{key}\n{key}\n")
+    for reference in ([key, key], table):
+        twice, notes = told(lambda: genga.evaluate(clip, result, reference=reference))
+        assert twice == once and twice["timing"]["recall"] == 1.0
+        assert notes == ["1 reference key repeats another one and does not count"]
+
+
+def test_which_layer_is_judged_is_told(clip):
+    layers = [{"name": "A", "joints": ["Hips"]}, {"name": "B", "joints": ["LeftArm"]}]
+    result = genga.run(clip, layers=layers)
+    _, notes = told(lambda: genga.evaluate(clip, result))
+    assert len(notes) == 1 and notes[0].startswith("of several layers what is on screen is judged together"), notes
+
+
 def test_reference_keys_are_frames_a_result_or_a_file(clip, tmp_path):
     result, other = genga.run(clip), genga.run(clip, rate=12)
     drawings = other.sheet.drawings

@@ -57,6 +57,12 @@ fn keys_are_read_from_whatever_has_them_and_their_own_are_all_found() {
         assert_eq!(&json(&fs::read_to_string(place.path("m.json")).unwrap())["timing"], timing);
     }
     let last: usize = genga.last().unwrap().parse().unwrap();
+    fs::write(place.path("list.txt"), format!("{last}\n{last}\n")).unwrap();
+    let output =
+        place.genga("eval out/sheet.json --clip data/kick.bvh --reference list.txt --json -");
+    let repeated = "1 reference key repeats another one and does not count";
+    assert!(text(&output.stderr).contains(repeated), "{}", text(&output.stderr));
+    assert_eq!(json(&text(&output.stdout))["timing"]["recall"], 1.0);
     fs::write(place.path("list.txt"), format!("{last}\n99999\n")).unwrap();
     let output =
         place.genga("eval out/sheet.json --clip data/kick.bvh --reference list.txt --json -");
@@ -68,6 +74,27 @@ fn keys_are_read_from_whatever_has_them_and_their_own_are_all_found() {
     let page = place.done("eval out/sheet.json --clip data/kick.bvh --reference list.txt");
     assert!(page.contains("no key of it stands between the ends, frames 0 and "), "{page}");
     assert!(!page.contains("F1"), "{page}");
+}
+
+#[test]
+fn what_lies_in_the_last_koma_is_an_end() {
+    let place = Place::new();
+    place.done("run data/kuroda-pitch.bvh --out out -q");
+    let table = fs::read_to_string(place.path("out/keys.csv")).unwrap();
+    let all = column(&table, "source_frame");
+    let end = all.last().unwrap().parse::<f64>().unwrap().round() as usize;
+    fs::write(place.path("all.txt"), all.join("\n")).unwrap();
+    let eval = "eval out/sheet.json --clip data/kuroda-pitch.bvh --reference";
+    let output = place.genga(&format!("{eval} all.txt --json -"));
+    assert!(!text(&output.stderr).contains("reference key"), "{}", text(&output.stderr));
+    let timing = json(&text(&output.stdout))["timing"].clone();
+    assert_eq!(timing["reference"], all.len() - 2, "{timing}");
+    assert_eq!(timing["f1"], 1.0, "{timing}");
+    fs::write(place.path("all.txt"), format!("{}\n{}", all.join("\n"), end + 1)).unwrap();
+    let output = place.genga(&format!("{eval} all.txt --json -"));
+    let told = format!("or from frame {end} on, in the first or last koma, do not count");
+    assert!(text(&output.stderr).contains(&told), "{}", text(&output.stderr));
+    assert_eq!(json(&text(&output.stdout))["timing"], timing);
 }
 
 #[test]

@@ -29,7 +29,7 @@ const FRAMES: [&str; 2] = ["source_frame", "frame"];
 /// - an MMD motion (.vmd): the frames on which a bone of the body has a key. It runs at 30 frames per second,
 ///   and its frame 0 is the first frame of the `clip`.
 ///
-/// Returns the frames sorted and without duplicates. A fractional frame counts as the nearest one.
+/// Returns the frames sorted; a list or table keeps those that it repeats. A fractional frame counts as the nearest one.
 ///
 /// # Errors
 /// [`Error::Sheet`] with line and column if a frame is not a number; without a place if the table lacks a frame
@@ -55,7 +55,6 @@ pub fn reference_keys(bytes: &[u8], clip: &Clip) -> Result<Vec<Frame>, Error> {
         return Err(Error::sheet("there is no key in it"));
     }
     frames.sort_unstable();
-    frames.dedup();
     Ok(frames)
 }
 
@@ -83,7 +82,11 @@ fn of_sheet(bytes: &[u8]) -> Result<Vec<Frame>, Error> {
     let sheet = sheet_json::read(bytes)?.sheet;
     let drawings = sheet.layers.iter().take(1).flat_map(|layer| layer.shown());
     let genga = drawings.filter(|drawing| drawing.role == Role::Genga);
-    Ok(genga.map(|drawing| Frame(drawing.source.place().round() as usize)).collect())
+    let mut frames: Vec<Frame> =
+        genga.map(|drawing| Frame(drawing.source.place().round() as usize)).collect();
+    // Below the rate of the sheet several koma share a frame.
+    frames.dedup();
+    Ok(frames)
 }
 
 fn listed(text: &str) -> Result<Vec<Frame>, Error> {
@@ -168,7 +171,7 @@ mod tests {
 
     #[test]
     fn a_list_is_one_frame_a_line() {
-        assert_eq!(keys("# by hand\n12\n150  # wrist\n\n40.6\r\n12\n"), [12, 41, 150]);
+        assert_eq!(keys("# by hand\n12\n150  # wrist\n\n40.6\r\n12\n"), [12, 12, 41, 150]);
         assert_eq!(
             refused("12\nabout 40\n"),
             "2:1: expected the number of a source frame, found \"about 40\""

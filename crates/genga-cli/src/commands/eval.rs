@@ -47,7 +47,9 @@ Measures:
                  the time of the hold at its speed within half a second
   precision, recall, F1
                  genga and reference keys that match one to one within --tolerance
-  off            distance from a reference key to the nearest genga
+  off            distance from a reference key to the nearest genga, in the mean over all reference keys
+  Neither genga nor reference keys within the first or the last koma of the clip count in these: both
+  ends are always drawn. A reference key that is given twice counts once.
 
 Examples:
   genga run kick.bvh && genga eval kick-genga/sheet.json --clip kick.bvh
@@ -66,14 +68,8 @@ pub(super) fn run(args: &EvalArgs, words: &Words) -> Result<(), Failure> {
         words.say("the sheet is of an exaggerated motion, and is judged beside that: it is the source here");
     }
     let clip = motion.clip();
-    if let [first, _, ..] = &file.sheet.layers[..] {
-        words.say(format_args!(
-            "of several layers what is on screen is judged together, keys and pace by the first: {}",
-            first.name
-        ));
-    }
-    let beyond = reference.as_deref().and_then(|keys| Evaluation::beyond(clip, keys));
-    beyond.iter().for_each(|note| words.say(note));
+    let notes = Evaluation::notes(clip, &file.sheet, reference.as_deref());
+    notes.iter().for_each(|note| words.say(note));
     let found = Evaluation::new(clip, &file.sheet, reference.as_deref(), args.tolerance)
         .map_err(&of_sheet)?;
     if let Some(path) = &args.json {

@@ -1,6 +1,7 @@
 //! The quality of a sheet: its drawings compared with the source, and its keys with reference keys.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
 
 use serde::Serialize;
 
@@ -11,7 +12,7 @@ use genga::keys::{DrawnBody, Reconstruction, Reference};
 use genga::motion::{Clip, Composite};
 use genga::sheet::{Role, Sheet};
 use genga::signal::{ContactFinder, Limb};
-use genga::time::Frame;
+use genga::time::{Clock, Frame};
 
 /// Error of the body over some koma, in % of its height (root mean square over its points).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -70,7 +71,8 @@ impl Evaluation {
     /// Measures a sheet of a clip. The screen is judged with all layers composited and the root as on the sheet; keys
     /// and pace are those of the first layer. `reference` are keys by source frame, and `tolerance` is the largest
     /// distance in koma between a key and its reference. Genga are compared by their nearest frames, not by koma. The
-    /// ends of the clip and reference keys on them do not count, as both drawings are always there.
+    /// ends of the clip do not count, nor do reference keys within its first or last koma, as both drawings are always
+    /// there. A reference key that is given twice counts once. [`Evaluation::notes`] tells what does not count.
     ///
     /// # Errors
     /// [`Error::Sheet`] as in [`Sheet::first_layer`], and if a layer has a joint that the clip lacks; [`Error::Clip`]
@@ -128,17 +130,54 @@ impl Evaluation {
         })
     }
 
-    /// Says how many reference keys are beyond the clip and so do not count; `None` if all are in it.
-    pub fn beyond(clip: &Clip, reference: &[Frame]) -> Option<String> {
-        let count = reference.iter().filter(|frame| !clip.contains(**frame)).count();
-        let keys = if count == 1 { "key" } else { "keys" };
+    /// Says which layer is judged, if there are several, and how many reference keys do not count: those that repeat
+    /// others, that are beyond the clip, or that are ends of it and neither a drawing of the sheet's ends nor an end of
+    /// the clip.
+    pub fn notes(clip: &Clip, sheet: &Sheet, reference: Option<&[Frame]>) -> Vec<String> {
+        let mut notes = Vec::new();
+        if let [first, _, ..] = &sheet.layers[..] {
+            notes.push(format!(
+                "of several layers what is on screen is judged together, keys and pace by the first: {}",
+                first.name
+            ));
+        }
+        let given = reference.unwrap_or_default();
+        let distinct: BTreeSet<Frame> = given.iter().copied().collect();
+        match given.len() - distinct.len() {
+            0 => {}
+            1 => notes.push("1 reference key repeats another one and does not count".into()),
+            count => notes.push(format!("{count} reference keys repeat others and do not count")),
+        }
+        let count_of = |is_of: &dyn Fn(Frame) -> bool| {
+            let count = distinct.iter().filter(|frame| is_of(**frame)).count();
+            (count > 0)
+                .then(|| format!("{count} reference {}", if count == 1 { "key" } else { "keys" }))
+        };
         let (first, last) = (clip.first(), clip.last());
-        (count > 0).then(|| {
-            format!(
-                "{count} reference {keys} beyond frames {first} to {last} of the sheet do not count"
-            )
-        })
+        if let Some(keys) = count_of(&|frame| !clip.contains(frame)) {
+            notes.push(format!("{keys} beyond frames {first} to {last} of the sheet do not count"));
+        }
+        let inner = inner(clip, sheet.clock);
+        let is_drawn = |frame| [first, inner.end, last].contains(&frame);
+        if let Some(keys) =
+            count_of(&|frame| clip.contains(frame) && !inner.contains(&frame) && !is_drawn(frame))
+        {
+            let Range { start, end } = inner;
+            notes.push(format!(
+                "{keys} before frame {start} or from frame {end} on, in the first or last koma, do not count: \
+                 the ends are always drawn"
+            ));
+        }
+        notes
     }
+}
+
+/// Returns the frames between the ends of a clip: those after its first koma and before its last.
+fn inner(clip: &Clip, clock: Clock) -> Range<Frame> {
+    let koma = clip.rate().koma_from_frames(clip.len(), clock.koma_rate);
+    // Below the rate of the sheet several koma share a frame.
+    let start = clock.frame_from_koma(1).max(Frame(clip.first().0 + 1));
+    start..clock.frame_from_koma(koma.saturating_sub(1)).min(clip.last())
 }
 
 fn pace(sheet: &Sheet) -> Counts {
@@ -173,9 +212,10 @@ fn timing(
     reference: &[Frame],
     tolerance: f64,
 ) -> Timing {
-    let is_inside = |frame: &&Frame| **frame > clip.first() && **frame < clip.last();
-    let inside =
-        |frames: &[Frame]| -> Vec<Frame> { frames.iter().filter(is_inside).copied().collect() };
+    let inner = inner(clip, sheet.clock);
+    let inside = |frames: &[Frame]| -> Vec<Frame> {
+        frames.iter().filter(|frame| inner.contains(frame)).copied().collect()
+    };
     Timing::new(&inside(genga), &inside(reference), sheet.clock, tolerance)
 }
 
@@ -240,6 +280,34 @@ mod tests {
         let timing = found.timing.unwrap();
         assert_eq!((timing.reference, timing.found, timing.pairs), (2, 3, 2), "ends do not count");
         assert_eq!(found.pace.holds, BTreeMap::from([(1, 1), (3, 4)]));
+    }
+
+    #[test]
+    fn what_lies_in_the_first_or_last_koma_is_an_end_and_a_repeated_key_counts_once() {
+        // 5 frames are a koma, the last of which begins at frame 10 of 0 to 12.
+        let swung = clip();
+        let rate = genga::time::FrameRate::new(120.0).unwrap();
+        let angles = (0..13).map(f64::from).collect();
+        let clip = Clip::new(swung.skeleton().clone(), rate, Frame(0), 13, angles).unwrap();
+        let sheet = sheet(&clip, &[(0.0, 1), (5.0, 1), (10.0, 1)]);
+        let counted = |keys: &[usize]| {
+            let keys: Vec<Frame> = keys.iter().copied().map(Frame).collect();
+            let timing = Evaluation::new(&clip, &sheet, Some(&keys), 1.0).unwrap().timing.unwrap();
+            let notes = Evaluation::notes(&clip, &sheet, Some(&keys));
+            ((timing.reference, timing.found, timing.pairs), notes)
+        };
+        assert_eq!(counted(&[0, 5, 10, 12]), ((1, 1, 1), vec![]), "its own drawings, and the ends");
+        let (counts, notes) = counted(&[4, 5, 9, 11, 99]);
+        assert_eq!(counts, (2, 1, 1));
+        assert_eq!(notes.len(), 2, "{notes:?}");
+        assert!(notes[0].starts_with("1 reference key beyond frames 0 to 12"), "{notes:?}");
+        assert!(
+            notes[1].starts_with("2 reference keys before frame 5 or from frame 10 on"),
+            "{notes:?}"
+        );
+        let (counts, notes) = counted(&[5, 5]);
+        assert_eq!(counts, (1, 1, 1));
+        assert_eq!(notes, ["1 reference key repeats another one and does not count"]);
     }
 
     #[test]

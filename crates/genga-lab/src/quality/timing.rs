@@ -31,12 +31,13 @@ pub struct Timing {
 }
 
 impl Timing {
-    /// Compares keys with reference keys, both in any order, within a tolerance in koma. Nothing is rounded to koma
+    /// Compares keys with reference keys, both in any order, within a tolerance in koma. A repeated key counts once. Nothing is rounded to koma
     /// first: two keys that lie half a koma apart stay so, whichever koma they are nearest to.
     pub fn new(found: &[Frame], reference: &[Frame], clock: Clock, tolerance: f64) -> Self {
         let [found, reference] = [found, reference].map(|keys| {
             let mut keys = keys.to_vec();
             keys.sort_unstable();
+            keys.dedup();
             keys
         });
         let frames_in_koma = clock.frames_in_koma();
