@@ -52,7 +52,11 @@ fn help() -> String {
         format!("\n  {method:<15}{english} ({japanese})")
     });
     format!(
-        "Methods:{}\n\n\
+        "Methods:{}\n\n  \
+         Recipe and settings are those of genga. kt11 takes none of them but the rate: its settings\n  \
+         are those of Table 1 (`genga recipe --study`), without rests. The keys that a recipe finds\n  \
+         are counted before timing, without both ends and corrections. `genga run` counts both\n  \
+         ends, and on its sheet a key that is too close to another or to an end gives way.\n\n\
          Columns:\n  mean, worst    error of the motion slerped between the keys, mean over koma and worst koma:\n                 \
          root mean square over the body, in % of its height\n  \
          × mean, worst  the same errors as a multiple of the least possible with as many keys\n  \
