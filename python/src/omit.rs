@@ -25,7 +25,9 @@ use crate::work;
 pub struct Omitted {
     /// Length of the clip in frames at 24 per second.
     frames: usize,
-    /// Number of frames that naka-nashi left out, N_io.
+    /// Number of koma that naka-nashi cut, N_io: as many as it was asked for, if they could be. Each lengthens another
+    /// drawing by a koma, and with many the koma so given are cut again, so that n_io can be more than the drawings that
+    /// are gone, and than frames.
     n_io: usize,
     /// Number of frames that koma-dori replaced by the one before, N_hf.
     n_hf: usize,

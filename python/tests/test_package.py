@@ -873,6 +873,13 @@ def test_evaluation_and_comparison(clip):
     assert set(table["asked"]) >= {6} and np.isnan(table["steady"]).all()
 
 
+def test_what_is_cut_again_is_counted_as_said(clip):
+    found = genga.omit(clip, naka_nashi=60, koma_dori=0)
+    gone = found.frames - len(np.unique(found.sheet.exposures["drawing"]))
+    assert found.n_io >= gone
+    assert "cut again" in genga.Omitted.n_io.__doc__
+
+
 @pytest.mark.parametrize("tolerance", [-1, math.nan, math.inf])
 def test_a_tolerance_that_is_no_length_is_refused(tolerance, clip):
     with pytest.raises(genga.Error, match="tolerance: expected koma, 0 or more"):

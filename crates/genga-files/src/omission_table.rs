@@ -10,7 +10,7 @@ pub struct OmissionRow {
     pub clip: String,
     /// Its length in frames at 24 per second.
     pub frames: usize,
-    /// Number of frames that naka-nashi left out, N_io.
+    /// Number of koma that naka-nashi cut, N_io. Those that it gave to another drawing can be cut again.
     pub n_io: usize,
     /// Number of frames that koma-dori replaced by the one before, N_hf.
     pub n_hf: usize,

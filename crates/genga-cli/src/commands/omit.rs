@@ -51,6 +51,8 @@ pub(super) struct OmitArgs {
     out: Option<PathBuf>,
     /// Print a row of the second paper's Table 1 for each clip as CSV, or write them to a file (--table=FILE.csv): frames at 24 per
     /// second, left-out ones (N_io), held ones (N_hf), and the time in milliseconds, which differs from run to run.
+    /// N_io counts the koma that were cut, each of which lengthens another drawing. The koma so given can be cut
+    /// again, so that a high N_io is more than the drawings that are gone.
     #[arg(long, value_name = "FILE.csv", num_args = 0..=1, require_equals = true, default_missing_value = "-")]
     table: Option<PathBuf>,
     /// Timesheet as a CSV file.
