@@ -11,7 +11,7 @@ use genga::time::KOMA_RATE;
 use genga::timing::{Omission, Omitted as Left, Order, Stills};
 use genga_files::limited;
 use pyo3::prelude::*;
-use pyo3::types::PyType;
+use pyo3::types::{PyString, PyType};
 
 use crate::clip::{Clip, taken};
 use crate::error::{raised, warned};
@@ -19,6 +19,9 @@ use crate::pickle::Reduced;
 use crate::result::Sheet;
 use crate::words::{unexpected, whole, word};
 use crate::work;
+
+/// What `naka_nashi` and `koma_dori` accept, for messages.
+const AMOUNT: &str = "a whole number, as in 4, or a share as text, as in \"35%\" or \"1/3\"";
 
 /// The result of `omit`: a row of the second paper's Table 1, and what it counts.
 #[pyclass(frozen, get_all, module = "genga")]
@@ -56,6 +59,13 @@ pub fn omit(
     keep_length: bool,
 ) -> PyResult<Omitted> {
     let amount = |name, given: Option<&Bound<'_, PyAny>>, usual: &str| {
+        // 1 is a drawing and 1.0 would be all of them.
+        if let Some(given) = given
+            && !given.is_instance_of::<PyString>()
+            && !given.hasattr("__index__")?
+        {
+            return Err(unexpected(name, AMOUNT, given));
+        }
         let text = given.map_or_else(|| Ok(usual.to_owned()), word)?;
         text.parse().map_err(|error: String| raised(py, Error::setting(name, error)))
     };

@@ -845,6 +845,14 @@ def test_one_call_leads_from_a_file_to_its_keys(clip):
         genga.run("nothing.bvh")
 
 
+@pytest.mark.parametrize("amount", [1.0, 0.35, np.float32(1), np.float64(0.5)])
+@pytest.mark.parametrize("name", ["naka_nashi", "koma_dori"])
+def test_a_share_is_text_and_no_float(name, amount, clip):
+    with pytest.raises(genga.Error, match=f'{name}: expected a whole number, as in 4, or a share as text, as in "35%"'):
+        genga.omit(clip, **{name: amount})
+    assert genga.omit(clip, **{name: np.int64(1)}).frames == 92
+
+
 def test_omission_alone_is_the_programs(clip, tmp_path):
     found = genga.omit(clip, naka_nashi=6, koma_dori="30%")
     out = tmp_path / "omitted.bvh"
