@@ -44,7 +44,9 @@ pub struct Omitted {
 
 /// Applies only naka-nashi and koma-dori, as `genga omit` does: to the clip, or motion file, at 24 drawings per second.
 /// `naka_nashi` is a count (4) or a share of the koma ("4%"), `koma_dori` a count (33) or a share of the inbetweens
-/// ("1/3"), `max_hold` the longest hold in koma. `keep_length=False` lets naka-nashi shorten the motion.
+/// ("1/3"), `max_hold` the longest hold in koma. By None, the default, `naka_nashi` is 4 and `koma_dori` "1/3"; 0 leaves
+/// out or holds none. A share for `naka_nashi` leaves out 6 at most, with a warning if it is more; a count is not
+/// limited. Shares are text, and floats are refused. `keep_length=False` lets naka-nashi shorten the motion.
 #[pyfunction]
 #[pyo3(signature = (clip, *, naka_nashi=None, koma_dori=None, max_hold=4, all_at_once=false, koma_dori_first=false, keep_length=true))]
 #[expect(clippy::too_many_arguments, reason = "each has a name in Python")]
@@ -79,23 +81,23 @@ pub fn omit(
         ..Omission::default()
     };
     let clip = taken(clip)?;
+    let koma = clip.get().motion.rate().koma_from_frames(clip.get().motion.len(), KOMA_RATE);
     let motion = Arc::clone(&clip.get().motion);
     let made = work::done(py, move |_| {
         Budget::default().check(&motion, KOMA_RATE)?;
-        let koma = motion.rate().koma_from_frames(motion.len(), KOMA_RATE);
         let ones = Timed::on_ones(motion.clock(KOMA_RATE), koma);
         let began = Instant::now();
         let stills = Stills::on(&motion, &ones.layers[0], &Screen::WORLD);
         let Left { layer, report } = omission.apply(&ones.layers[0], &stills, 1)?;
         let seconds = began.elapsed().as_secs_f64();
         let sheet = Timed::new(ones.clock, vec![layer]);
-        Ok((limited(&motion, &sheet)?, sheet, report, koma, seconds))
+        Ok((limited(&motion, &sheet)?, sheet, report, seconds))
     })?;
-    let (stepped, sheet, report, frames, seconds) = made.map_err(|error| raised(py, error))?;
-    report.shortfalls().try_for_each(|reason| warned(py, reason))?;
+    let (stepped, sheet, report, seconds) = made.map_err(|error| raised(py, error))?;
+    report.shortfalls().chain(omission.capped(koma)).try_for_each(|reason| warned(py, reason))?;
     let file = format!("{}_limited.bvh", clip.get().cut());
     Ok(Omitted {
-        frames,
+        frames: koma,
         n_io: report.naka_nashi.done,
         n_hf: report.koma_dori.done,
         seconds,

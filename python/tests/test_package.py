@@ -867,6 +867,15 @@ def test_omission_alone_is_the_programs(clip, tmp_path):
         genga.omit(KICK, naka_nashi="many")
 
 
+def test_a_share_that_is_capped_is_told(clip):
+    found, notes = told(lambda: genga.omit(clip, naka_nashi="50%"))
+    assert found.n_io == 6
+    assert notes == [
+        "naka-nashi: 50% are 46 of 92 koma, and a share leaves out at most 6; a count, such as 46, is not limited"
+    ]
+    assert told(lambda: genga.omit(clip, naka_nashi="6%"))[1] == []
+
+
 def test_evaluation_and_comparison(clip):
     result = genga.run(clip)
     drawings = result.sheet.drawings

@@ -224,6 +224,20 @@ impl Omission {
         ByPassage::from(*self).apply_to(layer, stills, course)
     }
 
+    /// Says that a share for naka-nashi is more of an action of `koma` koma than a share leaves out; `None` if it is
+    /// not.
+    pub fn capped(&self, koma: usize) -> Option<String> {
+        let Amount::Share(_) = self.naka_nashi else { return None };
+        let wanted = self.naka_nashi.resolve(koma);
+        (wanted > MOST_BY_SHARE).then(|| {
+            let share = self.naka_nashi;
+            format!(
+                "naka-nashi: {share} are {wanted} of {koma} koma, and a share leaves out at most {MOST_BY_SHARE}; \
+                 a count, such as {wanted}, is not limited"
+            )
+        })
+    }
+
     /// Returns the number of drawings that naka-nashi leaves out of an action of `koma` koma.
     fn count_in(&self, koma: usize) -> usize {
         match self.naka_nashi {

@@ -289,6 +289,8 @@ fn omit_prints_a_row_of_the_second_papers_table_1() {
     assert_eq!(column(&table, "clip"), ["kick", "swing"], "{table}");
     assert_eq!(column(&table, "n_io"), ["4", "4"], "{table}");
     place.refused(2, "omit data/kick.bvh data/swing.bvh --table --out o.bvh");
+    let capped = text(&place.genga("omit data/kick.bvh --naka-nashi 50% --table").stderr);
+    assert!(capped.contains("50% are 46 of 92 koma, and a share leaves out at most 6"), "{capped}");
 }
 
 #[test]

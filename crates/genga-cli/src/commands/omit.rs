@@ -26,8 +26,8 @@ pub(super) struct OmitArgs {
     part: Part,
     #[command(flatten)]
     seen: SeenArgs,
-    /// Number of the fastest drawings to leave out: a count (4) or a share of the koma (4%). The second
-    /// paper: 4, and 6 for the swing.
+    /// Number of the fastest drawings to leave out: a count (4) or a share of the koma (4%), by which at most 6 go. The
+    /// second paper: 4, and 6 for the swing.
     #[arg(long, value_name = "N", default_value = "4")]
     naka_nashi: Amount,
     /// Number of the slowest drawings to replace by holds: a count (33) or a share of the inbetweens (1/3). The
@@ -129,6 +129,8 @@ fn one(
         words.say(format_args!("seen from   画面       {seen_from}"));
     }
     summary(words, koma, &sheet, &report, seconds);
+    let capped = omission(args).capped(koma);
+    capped.iter().for_each(|note| words.say(format_args!("note        {note}")));
     let (n_io, n_hf) = (report.naka_nashi.done, report.koma_dori.done);
     Ok(OmissionRow { clip: name, frames: koma, n_io, n_hf, seconds })
 }
