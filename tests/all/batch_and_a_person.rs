@@ -4,6 +4,7 @@ use std::fs;
 
 use crate::batch::{code, results};
 use crate::clips::here;
+use crate::kept_numbers::{check, numbers};
 use crate::program::{Place, column, text};
 
 const BATCH: &str = "batch data/kick.bvh data/pitch.bvh --deliver json,bars --out out";
@@ -176,4 +177,87 @@ fn a_table_that_no_batch_wrote_is_protected() {
         place.refused(1, "batch bad.bvh --out bad");
     }
     assert_eq!(read(&place, "bad/keys.csv"), "");
+}
+
+const DRAWN: &str = "batch data/kick.bvh --deliver json,csv,images --out out";
+const CLIP: &str = "out/clips/kick.bvh";
+
+/// Paints on a drawing of a clip, of which the batch before has one more or less in front of it.
+fn paint(place: &Place, folder: &str) -> String {
+    let painted = format!("{folder}/clips/kick.bvh/images/A_0020.png");
+    assert!(place.path(&painted).is_file());
+    fs::write(place.path(&painted), "painted").unwrap();
+    painted
+}
+
+#[test]
+fn a_batch_keeps_the_numbers_of_drawings_as_a_run_does() {
+    let place = Place::new();
+    place.done(DRAWN);
+    let first = numbers(&place, CLIP);
+    let painted = paint(&place, "out");
+    let other = format!("{DRAWN} --set spacing.on=2");
+    place.done(&other);
+    check(&place, CLIP, &first);
+    assert_eq!(read(&place, &painted), "painted");
+    let table = read(&place, &format!("{CLIP}/numbers.csv"));
+    let [old, new] = ["old", "new"].map(|name| column(&table, name));
+    let kept = old.iter().zip(&new).filter(|(old, new)| !old.is_empty() && !new.is_empty());
+    assert!(kept.clone().count() > 1 && kept.clone().all(|(old, new)| old == new), "{table}");
+    // Nothing is left to do, and a clip that failed in between has its numbers again.
+    let second = numbers(&place, CLIP);
+    let done = fs::metadata(place.path(&format!("{CLIP}/drawings.csv"))).unwrap().modified();
+    place.done(&other);
+    let again = fs::metadata(place.path(&format!("{CLIP}/drawings.csv"))).unwrap().modified();
+    assert_eq!(done.unwrap(), again.unwrap());
+    fs::write(place.path(&format!("{CLIP}/drawings.csv")), "mine").unwrap();
+    place.refused(1, DRAWN);
+    fs::remove_file(place.path(&format!("{CLIP}/drawings.csv"))).unwrap();
+    place.done(DRAWN);
+    check(&place, CLIP, &second);
+    check(&place, CLIP, &first);
+}
+
+#[test]
+fn numbers_begin_at_1_if_that_is_asked_for_and_no_picture_is_lost() {
+    let place = Place::new();
+    let other = format!("{DRAWN} --set spacing.on=2");
+    place.done(&other.replace("--out out", "--out fresh"));
+    place.done(DRAWN);
+    place.done(&other);
+    let painted = paint(&place, "out");
+    for _ in 0..2 {
+        let said = place.refused(1, &format!("{other} --renumber"));
+        assert!(said.contains(&format!("{painted}: ")), "{said}");
+        assert!(said.contains(&format!("--overwrite {painted}")), "{said}");
+        assert_eq!(read(&place, &painted), "painted");
+    }
+    place.done(&format!("{other} --renumber --overwrite {painted}"));
+    let mut files = place.files(CLIP);
+    files.remove("numbers.csv");
+    assert!(files == place.files("fresh/clips/kick.bvh"));
+    let before = place.files(CLIP);
+    place.done(&other);
+    assert!(place.files(CLIP) == before, "they stay so");
+}
+
+#[test]
+fn a_painted_picture_whose_number_cannot_be_kept_fails_its_clip() {
+    let place = Place::new();
+    let batch = "batch data/kick.bvh data/pitch.bvh --deliver images --out out";
+    place.done(batch);
+    let painted = paint(&place, "out");
+    let other = format!("{batch} --set spacing.on=2");
+    for _ in 0..2 {
+        let said = place.refused(1, &other);
+        assert!(said.contains(&format!("1 of 2 failed: {painted}: ")), "{said}");
+        assert!(said.contains(&format!("--overwrite {painted}")), "{said}");
+        assert_eq!(read(&place, &painted), "painted");
+    }
+    assert_eq!(summary(&place, "status"), ["failed", "done"]);
+    place.done(batch);
+    assert_eq!(summary(&place, "warnings"), ["W_PAINTED", ""]);
+    place.done(&format!("{other} --overwrite {painted}"));
+    place.done(&other.replace("--out out", "--out fresh"));
+    assert!(results(&place, "out") == results(&place, "fresh"));
 }

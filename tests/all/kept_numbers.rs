@@ -10,7 +10,7 @@ use crate::folders::all;
 use crate::program::{Place, column, text};
 
 /// The number of each drawing by its layer and the source frame that it shows, as the table of drawings has it.
-fn numbers(place: &Place, folder: &str) -> BTreeMap<(String, String), String> {
+pub(crate) fn numbers(place: &Place, folder: &str) -> BTreeMap<(String, String), String> {
     let table = text(&place.files(folder)["drawings.csv"]);
     let [layers, frames, numbers] =
         ["column", "source_frame", "drawing"].map(|name| column(&table, name));
@@ -18,7 +18,7 @@ fn numbers(place: &Place, folder: &str) -> BTreeMap<(String, String), String> {
 }
 
 /// Checks that the numbers of each layer ascend, and that those of the earlier sheet are still those of its drawings.
-fn check(place: &Place, folder: &str, before: &BTreeMap<(String, String), String>) {
+pub(crate) fn check(place: &Place, folder: &str, before: &BTreeMap<(String, String), String>) {
     let table = text(&place.files(folder)["drawings.csv"]);
     for series in ["drawing", "genga_no"] {
         let rows = column(&table, "column").into_iter().zip(column(&table, series));

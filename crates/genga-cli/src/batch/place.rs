@@ -11,6 +11,7 @@ use super::super::format_args::Overwrites;
 use super::super::paths;
 use super::super::shell::quoted;
 use super::super::staging::Staging;
+use super::row::Line;
 
 /// Folder that holds a folder per clip.
 pub(super) const CLIPS: &str = "clips";
@@ -54,11 +55,11 @@ impl Places<'_> {
     /// the names of files that stay because a person changed them. All else in the folder is left alone.
     pub(crate) fn put(
         &self,
-        name: &str,
+        line: &Line,
         staging: &Staging,
-        come: &Files,
         before: &Files,
     ) -> Result<Vec<String>, Failure> {
+        let Line { clip: name, files: come, .. } = line;
         let place = self.clip_folder(name);
         let failed = |error: io::Error| match is_too_long(&error) {
             // The clip's own fault, which becomes its row.
@@ -66,7 +67,7 @@ impl Places<'_> {
             false => Failure::io(&place, error),
         };
         if place.exists() {
-            let kept = self.kept(&place, come, before)?;
+            let kept = self.kept(&place, line, before)?;
             let stays = |file: &&String| kept.contains(file);
             let is_left = |file: &&String| come.contains_key(*file) || is_behind_link(&place, file);
             let come = come.keys().filter(|file| !stays(file));
@@ -83,15 +84,16 @@ impl Places<'_> {
     }
 
     /// Names of files that a person changed and that stay: pictures, files that do not come now, and files that would
-    /// come as they came before. Refuses any other that would be lost.
-    fn kept(&self, place: &Path, come: &Files, before: &Files) -> Result<Vec<String>, Failure> {
+    /// come as they came before. Refuses any other that would be lost, and a picture that may be of another drawing now.
+    fn kept(&self, place: &Path, line: &Line, before: &Files) -> Result<Vec<String>, Failure> {
+        let come = &line.files;
         if let Some(path) = come.keys().find_map(|file| in_the_way(place, file)) {
             return Err(Failure::AskedWrongly(format!(
                 "{}: is in the way of a file or a folder of that name; move it",
                 path.display()
             )));
         }
-        let (mut kept, mut lost) = (Vec::new(), Vec::new());
+        let (mut kept, mut lost, mut other) = (Vec::new(), Vec::new(), Vec::new());
         let others = before.keys().filter(|file| !come.contains_key(*file));
         for file in come.keys().chain(others) {
             let Some(there) = digest(place, file) else { continue };
@@ -99,13 +101,21 @@ impl Places<'_> {
             let is_ours = [old, new].into_iter().flatten().any(|written| *written == there);
             let is_over = new.is_some()
                 && (self.over.has(place, file) || self.over.is_forced && !is_picture(file));
+            let is_as_drawn = line.keeps_numbers || old.is_none() || new.is_none() || old == new;
             match is_ours || is_over {
                 true => {}
+                false if is_picture(file) && !is_as_drawn => {
+                    other.push(place.join(file).display().to_string());
+                }
                 false if is_picture(file) || new.is_none() || old == new => kept.push(file.clone()),
                 false => lost.push(place.join(file).display().to_string()),
             }
         }
-        if lost.is_empty() { Ok(kept) } else { Err(would_be_lost(&lost)) }
+        match (lost.is_empty(), other.is_empty()) {
+            (true, true) => Ok(kept),
+            (true, false) => Err(of_another_drawing(&other)),
+            (false, _) => Err(would_be_lost(&lost)),
+        }
     }
 }
 
@@ -131,19 +141,40 @@ fn in_the_way(place: &Path, file: &str) -> Option<PathBuf> {
 
 /// The failure of a clip with files that are not as a batch wrote them, and that its results would replace.
 fn would_be_lost(files: &[String]) -> Failure {
-    let more = match &files[1..] {
+    Failure::AskedWrongly(format!(
+        "{}: this file is not as a batch wrote it{}, and would be lost; move it{}",
+        files[0],
+        nor(files),
+        or_over(files)
+    ))
+}
+
+/// The failure of a clip with pictures that a person changed, and whose drawings have other numbers now.
+fn of_another_drawing(files: &[String]) -> Failure {
+    Failure::AskedWrongly(format!(
+        "{}: this picture is not as a batch wrote it{}, and may be of another drawing now, for numbers are not kept; move \
+         it{}",
+        files[0],
+        nor(files),
+        or_over(files)
+    ))
+}
+
+/// Names the files after the first.
+fn nor(files: &[String]) -> String {
+    match &files[1..] {
         [] => String::new(),
         others => format!(" (nor {})", others.join(" ")),
-    };
+    }
+}
+
+/// The option that writes over files.
+fn or_over(files: &[String]) -> String {
     // A comma separates names, so none can have one.
-    let way = match files.iter().any(|file| file.contains(',')) {
+    match files.iter().any(|file| file.contains(',')) {
         true => String::new(),
         false => format!(", or write over it with --overwrite {}", quoted(&files.join(","))),
-    };
-    Failure::AskedWrongly(format!(
-        "{}: this file is not as a batch wrote it{more}, and would be lost; move it{way}",
-        files[0]
-    ))
+    }
 }
 
 /// Whether the file system refuses a name, usually one of more than 255 bytes.

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::super::format_args::shortened;
 use super::place::is_picture;
-use genga_files::Report;
+use genga_files::{ClipMark, Report};
 
 /// A row of `summary.csv`. For a failed clip most of it is empty.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
@@ -176,6 +176,15 @@ pub(crate) struct Line {
     pub(crate) keys: String,
     /// Files and their digests.
     pub(crate) files: BTreeMap<String, String>,
+    /// The motion that the files are made of, if there are any.
+    #[serde(default)]
+    pub(crate) made_of: Option<ClipMark>,
+    /// Whether the drawings are not 1, 2, 3 …, to keep the numbers of an earlier sheet.
+    #[serde(default)]
+    pub(crate) has_old_numbers: bool,
+    /// Whether a drawing that the batch before made too has its number.
+    #[serde(skip)]
+    pub(crate) keeps_numbers: bool,
     /// Milliseconds spent reading, drawing and writing.
     pub(crate) ms: [f64; 3],
 }

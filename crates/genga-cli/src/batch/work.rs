@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fs::{self, File};
 use std::io::Read;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use clap::{Args, Command, FromArgMatches};
@@ -12,7 +12,9 @@ use clap::{Args, Command, FromArgMatches};
 use super::super::console::{Words, is_loss};
 use super::super::failure::Failure;
 use super::super::format_args::Formats;
+use super::super::numbers::{self, Numbering};
 use super::super::plan::{Plan, PlanArgs};
+use super::super::sheets::SHEET;
 use super::super::staging::Staging;
 use super::super::{files, paths, stop};
 use super::list::Item;
@@ -22,7 +24,8 @@ use super::row::{Line, Row};
 use genga::edits::Edits;
 use genga::error::Error;
 use genga::recipe::Recipe;
-use genga_files::{Drawings, Manifest, Report, Rows, Run, run_notes};
+use genga::sheet::Sheet;
+use genga_files::{ClipMark, Drawings, Manifest, Report, Rows, Run, numbers_csv, run_notes};
 
 /// The options shared by all clips.
 pub(crate) struct Asked<'a> {
@@ -112,6 +115,30 @@ fn digest_of_file(path: &Path) -> Result<String, Failure> {
     }
 }
 
+/// The sheet that a batch before left in a clip's folder. Its drawings keep their numbers.
+#[derive(Default)]
+pub(crate) struct Earlier {
+    sheet: PathBuf,
+    /// The motion that it is made of.
+    of: Option<ClipMark>,
+    /// Whether numbers begin at 1 all the same.
+    is_anew: bool,
+}
+
+impl Earlier {
+    /// Finds the sheet in a clip's folder; `line` is what is known of its files.
+    pub(crate) fn new(folder: &Path, line: Option<&Line>, is_anew: bool) -> Self {
+        let of = line.and_then(|line| line.made_of.clone());
+        Self { sheet: folder.join(SHEET), of, is_anew }
+    }
+
+    fn numbering(&self, sheet: &Sheet, clip: &ClipMark) -> Numbering {
+        let is_of_clip = self.of.as_ref().is_some_and(|of| of.is_of(clip));
+        let before = if is_of_clip { numbers::read(&self.sheet) } else { Ok(None) };
+        Numbering::after(sheet, before, self.is_anew)
+    }
+}
+
 /// A clip whose digests are known, before any work on it.
 pub(crate) struct Begun<'a> {
     at: usize,
@@ -139,6 +166,7 @@ impl<'a> Begun<'a> {
     pub(crate) fn finish(
         self,
         formats: &Formats,
+        earlier: &Earlier,
         staging: &Staging,
         mut parcel: Option<&mut Parcel>,
     ) -> Result<Line, Failure> {
@@ -158,7 +186,7 @@ impl<'a> Begun<'a> {
                 }),
             }
             };
-            let work = || drawn(&own, &digest, formats, put, &mut warnings);
+            let work = || drawn(&own, &digest, formats, earlier, put, &mut warnings);
             let fault = |_| {
                 Failure::CouldNot(format!(
                     "{}: genga failed on this clip, which is a fault of its own",
@@ -175,11 +203,16 @@ impl<'a> Begun<'a> {
             row: Row::default(),
             keys: String::new(),
             files: BTreeMap::new(),
+            made_of: None,
+            has_old_numbers: false,
+            keeps_numbers: false,
             ms: [0.0; 3],
         };
         match drawn {
-            Ok(Drawn { row, keys, files, ms }) => {
-                (line.row, line.keys, line.files, line.ms) = (row, keys, files, ms)
+            Ok(Drawn { row, keys, files, made_of, has_old_numbers, keeps_numbers, ms }) => {
+                (line.row, line.keys, line.files, line.ms) = (row, keys, files, ms);
+                line.made_of = Some(made_of);
+                (line.has_old_numbers, line.keeps_numbers) = (has_old_numbers, keeps_numbers);
             }
             // A write error is the fault of the place, not of the clip.
             Err(failure) if is_unwritten => return Err(failure),
@@ -197,6 +230,9 @@ struct Drawn {
     row: Row,
     keys: String,
     files: BTreeMap<String, String>,
+    made_of: ClipMark,
+    has_old_numbers: bool,
+    keeps_numbers: bool,
     ms: [f64; 3],
 }
 
@@ -207,6 +243,7 @@ fn drawn(
     own: &OfOne,
     digest: &str,
     formats: &Formats,
+    earlier: &Earlier,
     put: &mut Put<'_>,
     warnings: &mut Vec<String>,
 ) -> Result<Drawn, Failure> {
@@ -223,6 +260,8 @@ fn drawn(
     plan.settle(&mut engine, &mute, &mut |note| notes.push(note))?;
     let Plan { recipe, edits, .. } = &plan;
     let breakdown = engine.run_once(recipe, edits).map_err(files::fault_of(path))?;
+    let numbering = earlier.numbering(breakdown.sheet, &clip);
+    let breakdown = breakdown.with_sheet(&numbering.sheet);
     notes.extend(run_notes::unmoved(edits, &breakdown));
     let report = Report::new(&breakdown, notes);
     let name = paths::stem(path);
@@ -232,14 +271,16 @@ fn drawn(
     let mut files = BTreeMap::new();
     let motion = clip.motion.clone();
     let run = Run { name: &name, clip: &clip, breakdown: &breakdown, recipe, edits };
-    let said = run.with_cut(|cut| {
-        formats.each(cut, &mut |name, bytes| {
-            let digest = Manifest::digest(bytes);
-            put(name, bytes, &digest)?;
-            files.insert(name.to_owned(), digest);
-            Ok(())
-        })
-    })?;
+    let mut put = |name: &str, bytes: &[u8]| {
+        let digest = Manifest::digest(bytes);
+        put(name, bytes, &digest)?;
+        files.insert(name.to_owned(), digest);
+        Ok(())
+    };
+    let said = run.with_cut(|cut| formats.each(cut, &mut put))?;
+    if !numbering.drawings.is_empty() {
+        put(Run::NUMBERS, &formats.table(numbers_csv(&numbering.drawings)?))?;
+    }
     let unmade = said.unmade();
     let lost = said.notes.iter().filter(|note| is_loss(note)).chain(unmade.first());
     warnings.extend(lost.map(|warning| warning.code.into()));
@@ -247,7 +288,8 @@ fn drawn(
     let reasons: Vec<String> = unmade.into_iter().map(|warning| warning.message).collect();
     row.message = reasons.join("; ");
     let ms = [read - begin, found - read, found.elapsed()].map(|time| time.as_secs_f64() * 1e3);
-    Ok(Drawn { row, keys, files, ms })
+    let (has_old_numbers, keeps_numbers) = (numbering.has_old_ones(), numbering.is_kept);
+    Ok(Drawn { row, keys, files, made_of: clip, has_old_numbers, keeps_numbers, ms })
 }
 
 fn write(path: &Path, bytes: &[u8]) -> Result<(), Error> {

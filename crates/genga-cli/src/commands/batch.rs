@@ -1,6 +1,5 @@
 //! `genga batch`: processes many clips, keeps what is finished, and writes tables of all.
 
-use std::collections::BTreeMap;
 use std::fs;
 use std::io::{Write, stdout};
 use std::path::{Path, PathBuf};
@@ -16,7 +15,7 @@ use crate::batch::pool::Pool;
 use crate::batch::row::{KEPT, Line, Row};
 use crate::batch::shard::{Shard, largest_first};
 use crate::batch::tables::{self, Count, NAMED};
-use crate::batch::work::{Asked, Begun};
+use crate::batch::work::{Asked, Begun, Earlier};
 use crate::clip::{ClipArgs, Part};
 use crate::console::{Bar, Words, counted};
 use crate::corrections::Corrections;
@@ -62,6 +61,9 @@ pub(super) struct BatchArgs {
     /// Write one archive, clips.zip, instead of one folder per clip. --join merges the archives of all parts.
     #[arg(long)]
     pack: bool,
+    /// Number the drawings from 1. Otherwise those that a clip's sheet.json has too keep their numbers (not with --pack).
+    #[arg(long)]
+    renumber: bool,
     /// Stop at the first clip that fails.
     #[arg(long)]
     fail_fast: bool,
@@ -144,6 +146,7 @@ struct Batch<'a> {
     own: Vec<usize>,
     crew: Pool,
     is_packed: bool,
+    renumbers: bool,
     fails_fast: bool,
     progress: Progress,
     state: Mutex<State>,
@@ -195,6 +198,7 @@ impl<'a> Batch<'a> {
             own: shard.deal(&sizes),
             crew: Pool { jobs, room },
             is_packed: args.pack,
+            renumbers: args.renumber,
             fails_fast: args.fail_fast,
             progress: args.progress,
             state: Mutex::new(State { journal, pack, done: 0, failed: 0, resumed: 0, fault: None }),
@@ -240,9 +244,9 @@ impl<'a> Batch<'a> {
             self.state().resumed += 1;
             return Ok(row);
         }
-        let before = before.map(|line| line.files).unwrap_or_default();
+        let earlier = self.earlier(&item.name, before.as_ref());
         let mut parcel = self.is_packed.then(Parcel::default);
-        let mut line = begun.finish(self.formats, &self.staging, parcel.as_mut())?;
+        let mut line = begun.finish(self.formats, &earlier, &self.staging, parcel.as_mut())?;
         let mut state = self.state();
         stop::undisturbed(|| {
             match (&mut state.pack, parcel) {
@@ -255,9 +259,21 @@ impl<'a> Batch<'a> {
         })
     }
 
+    /// Returns the sheet in a clip's folder. An archive has no numbers to keep.
+    fn earlier(&self, name: &str, before: Option<&Line>) -> Earlier {
+        let folder = self.places.clip_folder(name);
+        match self.is_packed {
+            true => Earlier::default(),
+            false => Earlier::new(&folder, before, self.renumbers),
+        }
+    }
+
     /// Returns the row of a clip that is done as it is asked for now, and writes down which of its files a person has
     /// changed since.
     fn done(&self, begun: &Begun<'_>, before: &Line) -> Result<Option<Row>, Failure> {
+        if self.renumbers && before.has_old_numbers {
+            return Ok(None);
+        }
         let (name, files) = (&before.clip, &before.files);
         let (file, asked) = begun.digests();
         let is_packed = {
@@ -283,17 +299,20 @@ impl<'a> Batch<'a> {
     }
 
     /// Moves the files of a clip into its folder. A clip whose files would replace those of a person fails.
-    fn put(&self, line: &mut Line, before: BTreeMap<String, String>) -> Result<(), Failure> {
-        match self.places.put(&line.clip, &self.staging, &line.files, &before) {
+    fn put(&self, line: &mut Line, before: Option<Line>) -> Result<(), Failure> {
+        let (files, made_of, has_old_numbers) =
+            before.map(|line| (line.files, line.made_of, line.has_old_numbers)).unwrap_or_default();
+        match self.places.put(line, &self.staging, &files) {
             Err(Failure::AskedWrongly(message)) => {
                 line.row = Row::failed(message, vec![]);
-                line.files = before;
+                (line.files, line.made_of, line.has_old_numbers) =
+                    (files, made_of, has_old_numbers);
                 line.keys.clear();
             }
             put => {
                 line.row.kept = put?;
                 // A file that stays is still known, so that it is not taken for one that no batch wrote.
-                let kept = before.into_iter().filter(|(file, _)| line.row.kept.contains(file));
+                let kept = files.into_iter().filter(|(file, _)| line.row.kept.contains(file));
                 kept.for_each(|(file, digest)| {
                     line.files.entry(file).or_insert(digest);
                 });
