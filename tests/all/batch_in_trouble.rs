@@ -223,3 +223,48 @@ fn a_batch_that_cannot_begin_leaves_no_folder_behind() {
         assert!(!place.path("new").exists(), "{args}: {}", text(&output.stderr));
     }
 }
+
+/// Runs the program as a user whom permissions bind, which they do not the root of a machine.
+#[cfg(target_os = "linux")]
+fn bound(place: &Place, args: &str) -> (i32, String) {
+    let data = here("data").to_string_lossy().into_owned() + "/";
+    let (genga, args) = (env!("CARGO_BIN_EXE_genga"), args.replace("data/", &data));
+    let less = "[ $(id -u) != 0 ] || less='setpriv --bounding-set -dac_override --'";
+    let command = format!("{less}; exec $less '{genga}' {args}");
+    let mut shell = std::process::Command::new("sh");
+    let output = shell.args(["-c", &command]).current_dir(place.path(".")).output().unwrap();
+    (output.status.code().unwrap_or(-1), text(&output.stderr))
+}
+
+#[cfg(target_os = "linux")]
+fn permit(place: &Place, folder: &str, mode: u32) {
+    use std::os::unix::fs::PermissionsExt;
+    fs::set_permissions(place.path(folder), fs::Permissions::from_mode(mode)).unwrap();
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_clip_whose_folder_cannot_be_written_is_a_row_and_the_others_are_done() {
+    let place = Place::new();
+    let batch = "batch data/kick.bvh data/pitch.bvh data/swing.bvh --out out --jobs 1";
+    place.done(batch);
+    let before = results(&place, "out");
+    permit(&place, "out/clips/pitch.bvh", 0o555);
+    let other = format!("{batch} --set spacing.on=3");
+    for _ in 0..2 {
+        let (exit, said) = bound(&place, &other);
+        assert_eq!(exit, 1, "{said}");
+        let refused = "1 of 3 failed: out/clips/pitch.bvh/sheet.json: access is denied; ";
+        assert!(said.contains(refused) && !said.contains(".genga-"), "{said}");
+        let now = results(&place, "out");
+        let summary = text(&now["summary.csv"]);
+        assert_eq!(crate::program::column(&summary, "status"), ["done", "failed", "done"]);
+        assert!(!summary.contains(".genga-"), "{summary}");
+        for (clip, is_same) in [("kick", false), ("pitch", true), ("swing", false)] {
+            let sheet = format!("clips/{clip}.bvh/sheet.json");
+            assert_eq!(now[&sheet] == before[&sheet], is_same, "{clip}");
+        }
+    }
+    permit(&place, "out/clips/pitch.bvh", 0o755);
+    place.done(&other);
+}

@@ -84,8 +84,7 @@ impl Staging {
     ) -> Result<(), Error> {
         Order { come, go }.begin(&self.path, folder)?;
         // Carried out; the next run must not take it for unfinished.
-        let order = self.path.join(ORDER);
-        fs::remove_file(&order).map_err(|source| io_error(&order, source))
+        fs::remove_file(self.path.join(ORDER)).map_err(|source| io_error(folder, source))
     }
 }
 
@@ -244,21 +243,22 @@ struct Order {
 impl Order {
     /// Records the order and carries it out; takes it back on failure.
     fn begin(&self, staging: &Path, folder: &Path) -> Result<(), Error> {
-        self.note(staging)?;
+        self.note(staging).map_err(|source| io_error(folder, source))?;
         self.carry_out(staging, folder).inspect_err(|_| self.take_back(staging, folder))
     }
 
     /// Writes the order to the staging for the next run.
-    fn note(&self, staging: &Path) -> Result<(), Error> {
+    fn note(&self, staging: &Path) -> io::Result<()> {
         let text = serde_json::to_vec(self).expect("names are plain data");
-        let order = staging.join(ORDER);
-        fs::write(&order, text).map_err(|source| io_error(&order, source))
+        fs::write(staging.join(ORDER), text)
     }
 
     /// Carries out the remaining renames.
     fn carry_out(&self, staging: &Path, folder: &Path) -> Result<(), Error> {
         for (from, to) in self.steps(staging, folder) {
-            shift(&from, &to).map_err(|source| io_error(&to, source))?;
+            // A person knows the place in the folder, and not the staging.
+            let place = if to.starts_with(staging) { &from } else { &to };
+            shift(&from, &to).map_err(|source| io_error(place, source))?;
         }
         self.go.iter().for_each(|name| remove_empty(folder, name));
         Ok(())

@@ -12,6 +12,7 @@ use super::super::paths;
 use super::super::shell::quoted;
 use super::super::staging::Staging;
 use super::row::Line;
+use genga::error::Error;
 
 /// Folder that holds a folder per clip.
 pub(super) const CLIPS: &str = "clips";
@@ -61,11 +62,7 @@ impl Places<'_> {
     ) -> Result<Vec<String>, Failure> {
         let Line { clip: name, files: come, .. } = line;
         let place = self.clip_folder(name);
-        let failed = |error: io::Error| match is_too_long(&error) {
-            // The clip's own fault, which becomes its row.
-            true => Failure::AskedWrongly(too_long(&place)),
-            false => Failure::io(&place, error),
-        };
+        let failed = |error: io::Error| refused(&place, error);
         if place.exists() {
             let kept = self.kept(&place, line, before)?;
             let stays = |file: &&String| kept.contains(file);
@@ -73,7 +70,11 @@ impl Places<'_> {
             let come = come.keys().filter(|file| !stays(file));
             let go = before.keys().filter(|file| !stays(file) && !is_left(file));
             let staged = |file: &String| staged(name, file);
-            staging.exchange(self.out, come.map(staged).collect(), go.map(staged).collect())?;
+            let (come, go) = (come.map(staged).collect(), go.map(staged).collect());
+            staging.exchange(self.out, come, go).map_err(|error| match error {
+                Error::Io { path, source } => refused(&path, source),
+                other => other.into(),
+            })?;
             return Ok(kept);
         }
         if !come.is_empty() {
@@ -174,6 +175,20 @@ fn or_over(files: &[String]) -> String {
     match files.iter().any(|file| file.contains(',')) {
         true => String::new(),
         false => format!(", or write over it with --overwrite {}", quoted(&files.join(","))),
+    }
+}
+
+/// The failure at a place of a clip. If the place alone is at fault, and not the whole disk, it becomes the clip's row.
+fn refused(path: &Path, error: io::Error) -> Failure {
+    use io::ErrorKind::{
+        AlreadyExists, IsADirectory, NotADirectory, PermissionDenied, ReadOnlyFilesystem,
+    };
+    match error.kind() {
+        _ if is_too_long(&error) => Failure::AskedWrongly(too_long(path)),
+        AlreadyExists | IsADirectory | NotADirectory | PermissionDenied | ReadOnlyFilesystem => {
+            Failure::AskedWrongly(Failure::io(path, error).to_string())
+        }
+        _ => Failure::io(path, error),
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::fs::{self, File};
-use std::io::Read;
+use std::io::{self, Read};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -115,26 +115,26 @@ fn digest_of_file(path: &Path) -> Result<String, Failure> {
     }
 }
 
-/// The sheet that a batch before left in a clip's folder. Its drawings keep their numbers.
+/// What a batch before left in a clip's folder. The drawings of its sheet keep their numbers.
 #[derive(Default)]
 pub(crate) struct Earlier {
-    sheet: PathBuf,
-    /// The motion that it is made of.
+    folder: PathBuf,
+    /// The motion that its files are made of.
     of: Option<ClipMark>,
     /// Whether numbers begin at 1 all the same.
     is_anew: bool,
 }
 
 impl Earlier {
-    /// Finds the sheet in a clip's folder; `line` is what is known of its files.
-    pub(crate) fn new(folder: &Path, line: Option<&Line>, is_anew: bool) -> Self {
+    /// Describes a clip's folder; `line` is what is known of its files.
+    pub(crate) fn new(folder: PathBuf, line: Option<&Line>, is_anew: bool) -> Self {
         let of = line.and_then(|line| line.made_of.clone());
-        Self { sheet: folder.join(SHEET), of, is_anew }
+        Self { folder, of, is_anew }
     }
 
     fn numbering(&self, sheet: &Sheet, clip: &ClipMark) -> Numbering {
         let is_of_clip = self.of.as_ref().is_some_and(|of| of.is_of(clip));
-        let before = if is_of_clip { numbers::read(&self.sheet) } else { Ok(None) };
+        let before = if is_of_clip { numbers::read(&self.folder.join(SHEET)) } else { Ok(None) };
         Numbering::after(sheet, before, self.is_anew)
     }
 }
@@ -175,16 +175,14 @@ impl<'a> Begun<'a> {
         let ready = |file: &str| staging.place(&place::staged(&item.name, file));
         let (mut warnings, mut is_unwritten) = (Vec::new(), false);
         let drawn = asked.and_then(|(own, digest)| {
-            let put = &mut |name: &str, bytes: &[u8], of: &str| {
-                match &mut parcel {
+            let put = &mut |name: &str, bytes: &[u8], of: &str| match &mut parcel {
                 Some(parcel) => parcel
                     .add(&item.name, name, of, bytes)
                     .map_err(|source| Error::Io { path: item.path.clone(), source }),
-                None => write(&ready(name), bytes).inspect_err(|error| {
-                    is_unwritten =
-                        !matches!(error, Error::Io { source, .. } if place::is_too_long(source));
+                None => write(&ready(name), bytes).map_err(|source| {
+                    is_unwritten = !place::is_too_long(&source);
+                    Error::Io { path: earlier.folder.join(name), source }
                 }),
-            }
             };
             let work = || drawn(&own, &digest, formats, earlier, put, &mut warnings);
             let fault = |_| {
@@ -292,10 +290,9 @@ fn drawn(
     Ok(Drawn { row, keys, files, made_of: clip, has_old_numbers, keeps_numbers, ms })
 }
 
-fn write(path: &Path, bytes: &[u8]) -> Result<(), Error> {
-    let write = || {
+fn write(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    stop::undisturbed(|| {
         path.parent().map_or(Ok(()), fs::create_dir_all)?;
         fs::write(path, bytes)
-    };
-    stop::undisturbed(write).map_err(|source| Error::Io { path: path.to_owned(), source })
+    })
 }

@@ -259,12 +259,12 @@ impl<'a> Batch<'a> {
         })
     }
 
-    /// Returns the sheet in a clip's folder. An archive has no numbers to keep.
+    /// Returns what is in a clip's folder. An archive has no numbers to keep.
     fn earlier(&self, name: &str, before: Option<&Line>) -> Earlier {
         let folder = self.places.clip_folder(name);
         match self.is_packed {
             true => Earlier::default(),
-            false => Earlier::new(&folder, before, self.renumbers),
+            false => Earlier::new(folder, before, self.renumbers),
         }
     }
 
