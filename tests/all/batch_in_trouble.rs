@@ -268,3 +268,20 @@ fn a_clip_whose_folder_cannot_be_written_is_a_row_and_the_others_are_done() {
     permit(&place, "out/clips/pitch.bvh", 0o755);
     place.done(&other);
 }
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_folder_that_cannot_be_written_is_named_as_it_was_given() {
+    let place = Place::new();
+    fs::create_dir(place.path("ro")).unwrap();
+    permit(&place, "ro", 0o555);
+    for command in ["run data/kick.bvh", "batch data/kick.bvh"] {
+        for out in ["ro", "ro/new"] {
+            let (exit, said) = bound(&place, &format!("{command} --out {out}"));
+            assert_eq!(exit, 1, "{said}");
+            let refused = format!("genga: {out}: access is denied; change the permissions, ");
+            assert!(said.contains(&refused) && !said.contains(".genga-"), "{said}");
+        }
+    }
+    permit(&place, "ro", 0o755);
+}

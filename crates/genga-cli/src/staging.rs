@@ -52,8 +52,9 @@ impl Staging {
         let (begin, end) = NAME;
         let path = stop::remember(|| {
             let folder = std::path::absolute(folder)?;
-            let made = tempfile::Builder::new().prefix(begin).suffix(end).tempdir_in(folder)?;
-            Ok(made.keep())
+            let made = tempfile::Builder::new().prefix(begin).suffix(end).tempdir_in(folder);
+            // Its own words name the staging, which a person does not know.
+            Ok(made.map_err(|error| io::Error::from(error.kind()))?.keep())
         })?;
         let lock = File::create(path.join(LOCK)).and_then(|lock| {
             // On a file system without locks, the staging of a dead run is never removed.
