@@ -297,3 +297,35 @@ fn a_run_that_is_stopped_leaves_the_old_files_or_the_new_and_nothing_else() {
         }
     }
 }
+
+#[cfg(unix)]
+#[test]
+fn a_run_into_a_folder_that_another_run_writes_meanwhile_says_so() {
+    let place = Place::new();
+    place.done("run data/kick.bvh --out marked");
+    let (keys, pipe) = (fs::read(place.path("marked/keys.csv")).unwrap(), place.path("marked.csv"));
+    assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+    for is_new in [true, false] {
+        let genga = std::process::Command::new(env!("CARGO_BIN_EXE_genga"))
+            .current_dir(place.path("."))
+            .args(["run", &here("data/kick.bvh").to_string_lossy(), "--out", "two"])
+            .args(["--pin-from", "marked.csv", "--set", "keys.min_price=9"])
+            .stderr(std::process::Stdio::piped())
+            .spawn()
+            .unwrap();
+        // While it waits for the marked keys, another run comes and goes.
+        let mut marked = fs::OpenOptions::new().write(true).open(&pipe).unwrap();
+        place.done("run data/kick.bvh --out two --set spacing.on=3 --force");
+        std::io::Write::write_all(&mut marked, &keys).unwrap();
+        drop(marked);
+        let output = genga.wait_with_output().unwrap();
+        let said = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(1), "{is_new}: {said}");
+        assert!(said.contains("two: another run is at work in this folder"), "{is_new}: {said}");
+        assert!(!said.contains("--force"), "{said}");
+        let recipe = fs::read_to_string(place.path("two/recipe.toml")).unwrap();
+        assert!(!recipe.contains("min_price"), "that of the other run: {recipe}");
+        place.done("run data/kick.bvh --out two --set spacing.on=4");
+    }
+    assert!(!names(&place.path(".")).iter().any(|name| name.ends_with(".tmp")));
+}

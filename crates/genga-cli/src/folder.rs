@@ -15,6 +15,8 @@ use genga_files::{ClipMark, Manifest, Run};
 /// A results folder as it is before a run writes to it.
 pub(super) struct Folder<'a> {
     path: &'a Path,
+    /// Text of its manifest; empty without one.
+    text: String,
     /// Manifest of the previous run. `None` without a manifest, or with one that somebody edited.
     before: Option<Manifest>,
     /// Changed files that this run may overwrite.
@@ -70,10 +72,21 @@ impl<'a> Folder<'a> {
     /// Reads the folder's manifest, after finishing what a killed run had begun there.
     pub(super) fn look(path: &'a Path, over: Overwrites<'a>) -> Self {
         staging::sweep(path);
-        let text = fs::read_to_string(path.join(Run::MANIFEST)).unwrap_or_default();
+        let text = manifest_text(path);
         let before = Manifest::read(&text).ok();
         let is_as_written = |read: &Manifest| read.write().is_ok_and(|written| written == text);
-        Self { path, before: before.filter(is_as_written), over }
+        Self { before: before.filter(is_as_written), path, text, over }
+    }
+
+    /// Refuses a folder into which another run has written since this one looked at it.
+    fn check_alone(&self) -> Result<(), Failure> {
+        match manifest_text(self.path) == self.text {
+            true => Ok(()),
+            false => Err(Failure::at(
+                self.path,
+                "another run is at work in this folder; wait for it and run again, or name another folder with --out",
+            )),
+        }
     }
 
     /// Refuses a folder that holds the results of another clip.
@@ -112,6 +125,7 @@ impl<'a> Folder<'a> {
     /// Moves the files of a run into their places, the manifest last. Files that only the previous run wrote are
     /// removed; those that a person changed stay and are reported, and so do painted pictures.
     pub(super) fn finish(self, mut bundle: Bundle<'_>, made: Made<'_>) -> Result<Left, Failure> {
+        self.check_alone()?;
         let come = bundle.files();
         self.over.check(self.path, &come)?;
         let painted: Vec<String> = come
@@ -217,6 +231,10 @@ impl<'a> Folder<'a> {
     fn has(&self, name: &str, digest: &str) -> bool {
         self.before.as_ref().is_some_and(|before| before.has(name, digest))
     }
+}
+
+fn manifest_text(folder: &Path) -> String {
+    fs::read_to_string(folder.join(Run::MANIFEST)).unwrap_or_default()
 }
 
 /// Returns the current digest of a file in a folder: `None` if it does not exist, and an empty string, which matches no
