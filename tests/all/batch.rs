@@ -49,7 +49,7 @@ pub(crate) fn code(place: &Place, args: &str) -> (i32, String) {
 fn a_format_that_cannot_be_made_is_said_in_the_clips_row_and_stops_no_other() {
     let place = Place::new();
     let batch = "batch data/kick.bvh data/pitch.bvh --deliver json,vmd --set rate=60 --out out";
-    // The second time nothing is left to do, and it is still said.
+    // The second time it is tried again, and still said.
     for _ in 0..2 {
         let (code, said) = code(&place, batch);
         assert_eq!(code, 1, "{said}");
@@ -293,7 +293,7 @@ fn progress_is_lines_for_programs() {
     let place = Place::new();
     library(&place);
     let batch = "batch lib/*/kick.bvh lib/broken --out out --deliver json,vmd --set rate=60";
-    // The second time the clips that are done are only read.
+    // The second time says the same.
     for _ in 0..2 {
         let output = place.genga(&format!("{batch} --progress json --jobs 1"));
         let lines: Vec<serde_json::Value> =
@@ -352,4 +352,21 @@ fn a_clip_that_ends_in_the_middle_is_done_and_the_last_lines_say_so() {
     assert!(said.contains(named), "{said}");
     let (code, said) = code(&place, "batch lib --strict --out strict");
     assert!(code == 1 && said.contains("half.bvh"), "{said}");
+}
+
+#[test]
+fn a_clip_without_its_only_format_is_done_but_for_it_and_is_tried_again() {
+    let place = Place::new();
+    place.done("batch data/kick.bvh --set rate=60 --out whole");
+    let batch = "batch data/kick.bvh --deliver vmd --set rate=60 --out out";
+    for _ in 0..2 {
+        let said = place.refused(1, batch);
+        assert!(said.contains("1 of 1 lack a format: kick.bvh: vmd is not made: "), "{said}");
+        assert!(!said.contains("done already"), "{said}");
+        let files = results(&place, "out");
+        let summary = text(&files["summary.csv"]);
+        assert_eq!(column(&summary, "status"), ["done"]);
+        assert_eq!(column(&summary, "warnings"), ["W_NOT_MADE"]);
+        assert_eq!(files["keys.csv"], results(&place, "whole")["keys.csv"]);
+    }
 }

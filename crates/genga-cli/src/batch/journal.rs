@@ -82,7 +82,8 @@ struct Known {
     span: Span,
     file: String,
     asked: String,
-    is_done: bool,
+    /// Whether it is done, with all formats that were asked for.
+    is_whole: bool,
 }
 
 /// A journal that is read and appended to.
@@ -170,7 +171,7 @@ impl Journal {
             match unsealed(&text) {
                 Some(Line { at, clip, file, asked, row, .. }) => {
                     let span = Span { begin: end, length };
-                    known.insert(clip, Known { at, span, file, asked, is_done: row.is_done() });
+                    known.insert(clip, Known { at, span, file, asked, is_whole: row.is_whole() });
                 }
                 None => changed += 1,
             }
@@ -180,11 +181,11 @@ impl Journal {
         Ok(Self { path: path.into(), file, end, header, known, changed })
     }
 
-    /// Whether this clip was done with the same file and options; its line is then not needed.
+    /// Whether this clip was done with the same file and options, and lacks no format; its line is then not needed.
     pub(crate) fn has(&self, name: &str, file: &str, asked: &str) -> bool {
         self.known
             .get(name)
-            .is_some_and(|known| known.is_done && known.file == file && known.asked == asked)
+            .is_some_and(|known| known.is_whole && known.file == file && known.asked == asked)
     }
 
     /// Returns the last line of a clip.
@@ -219,7 +220,7 @@ impl Journal {
         written.map_err(|error| Failure::io(&self.path, error))?;
         self.end += text.len() as u64;
         let Line { at, clip, file, asked, row, .. } = line;
-        self.known.insert(clip, Known { at, span, file, asked, is_done: row.is_done() });
+        self.known.insert(clip, Known { at, span, file, asked, is_whole: row.is_whole() });
         Ok(())
     }
 

@@ -105,6 +105,11 @@ impl Row {
         self.status == DONE
     }
 
+    /// Whether it is done with all its formats. What one lacks, such as ffmpeg, may be there the next time.
+    pub(crate) fn is_whole(&self) -> bool {
+        self.is_done() && !self.lacks_formats()
+    }
+
     /// Whether it is done but for formats that cannot be made of it.
     pub(crate) fn lacks_formats(&self) -> bool {
         self.is_done() && !self.message.is_empty()
