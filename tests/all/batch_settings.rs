@@ -92,3 +92,93 @@ fn parts_of_different_settings_are_not_joined() {
     let (exit, said) = code(&place, "batch --join out --out out");
     assert_eq!(exit, 0, "{said}");
 }
+
+/// Runs a batch of a table, `data/` in which is the repository's.
+fn of_table(place: &Place, name: &str, table: &str) -> (i32, String) {
+    let data = crate::clips::here("data").to_string_lossy().into_owned() + "/";
+    fs::write(place.path(name), table.replace("data/", &data)).unwrap();
+    fs::remove_dir_all(place.path("out")).ok();
+    code(place, &format!("batch @{name} --out out"))
+}
+
+fn sheet(place: &Place) -> Vec<u8> {
+    fs::read(place.path("out/clips/kick.bvh/sheet.json")).unwrap()
+}
+
+#[test]
+fn a_table_may_have_semicolons_and_its_switches_yes_and_no() {
+    let place = Place::new();
+    assert_eq!(of_table(&place, "a.csv", "clip,trim\ndata/kick.bvh,0..60\n").0, 0);
+    let trimmed = sheet(&place);
+    let (exit, said) =
+        of_table(&place, "b.csv", "clip;trim;set.spacing.on\n data/kick.bvh ;0..60;\n");
+    assert!(exit == 0 && sheet(&place) == trimmed, "{said}");
+    assert_eq!(of_table(&place, "c.csv", "clip,pin\ndata/kick.bvh,30\n").0, 0);
+    let pinned = sheet(&place);
+    for (word, is_on) in [("no", false), ("FALSE", false), ("0", false), ("Yes", true)] {
+        let table = format!("clip,strict,only-pins,pin\ndata/kick.bvh,{word},{word},30\n");
+        let (exit, said) = of_table(&place, "c.csv", &table);
+        assert_eq!(exit, 0, "{word}: {said}");
+        assert_eq!(sheet(&place) != pinned, is_on, "{word}");
+    }
+    let (exit, said) =
+        of_table(&place, "c.csv", "clip,keep-lead-in\ndata/pitch.bvh,\ndata/kick.bvh,maybe\n");
+    assert_eq!(exit, 2, "{said}");
+    assert!(said.contains("c.csv:3: ") && said.contains("kick.bvh: keep-lead-in: "), "{said}");
+    assert!(said.contains("expected yes or no, found \"maybe\""), "{said}");
+}
+
+#[test]
+fn a_column_that_is_no_option_is_found_before_any_work() {
+    let place = Place::new();
+    for (name, table, wanted) in [
+        ("t.csv", "clip,trimm\ndata/kick.bvh,0..60\n", "t.csv:1: trimm: "),
+        ("t.csv", "clip,trimm\ndata/kick.bvh,\n", "t.csv:1: trimm: "),
+        ("t.csv", "clip,set.spacing.onn\ndata/kick.bvh,3\n", "t.csv:1: set.spacing.onn: "),
+        (
+            "t.jsonl",
+            "{\"clip\":\"data/kick.bvh\"}\n{\"clip\":\"data/kick.bvh\",\"trimm\":1}\n",
+            "t.jsonl:2: ",
+        ),
+    ] {
+        let (exit, said) = of_table(&place, name, table);
+        assert_eq!(exit, 2, "{said}");
+        let meant = if wanted.contains("set.") { "spacing.on?" } else { "trim?" };
+        assert!(said.contains(wanted) && said.contains(&format!("did you mean {meant}")), "{said}");
+        assert!(!place.path("out").exists(), "{said}");
+    }
+    let (exit, said) = of_table(&place, "t.csv", "path,trim\ndata/kick.bvh,0..60\n");
+    assert!(exit == 2 && said.contains("t.csv:1: ") && said.contains("column clip"), "{said}");
+}
+
+#[test]
+fn a_wrong_value_of_a_table_names_its_line_its_clip_and_its_column() {
+    let place = Place::new();
+    for (table, column) in [
+        ("clip,trim\ndata/pitch.bvh,\ndata/kick.bvh,x..y\n", "trim"),
+        ("clip,set.spacing.on\ndata/pitch.bvh,\ndata/kick.bvh,x\n", "spacing.on"),
+        ("clip,pin\ndata/pitch.bvh,\ndata/kick.bvh,x\n", "pin"),
+    ] {
+        let (exit, said) = of_table(&place, "t.csv", table);
+        assert_eq!(exit, 1, "{said}");
+        assert!(said.contains("1 of 2 failed: t.csv:3: "), "{said}");
+        assert!(said.contains("kick.bvh: ") && said.contains(column), "{said}");
+    }
+}
+
+#[test]
+fn settings_of_an_object_are_an_object() {
+    let place = Place::new();
+    place.done("run data/kick.bvh --set spacing.on=3 --set seen_from=side --out one");
+    let wanted = &place.files("one")["sheet.json"];
+    for settings in [
+        "\"set\":{\"spacing.on\":3,\"seen_from\":\"side\"}",
+        "\"set\":{\"spacing\":{\"on\":3},\"seen_from\":\"side\"}",
+        "\"set.spacing.on\":3,\"set\":\"seen_from=side\"",
+    ] {
+        let line = format!("{{\"clip\":\"data/kick.bvh\",{settings}}}\n");
+        let (exit, said) = of_table(&place, "t.jsonl", &line);
+        assert_eq!(exit, 0, "{said}");
+        assert!(sheet(&place) == *wanted, "{settings}");
+    }
+}

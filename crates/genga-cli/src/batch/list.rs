@@ -5,12 +5,16 @@ use std::fs;
 use std::io::{self, Read};
 use std::path::{Component, Path, PathBuf};
 
+use clap::{Arg, Args, Command};
 use walkdir::WalkDir;
 
 use super::super::failure::Failure;
 use super::super::files;
 use super::super::paths::is_motion;
+use super::super::plan::PlanArgs;
 use super::own_results::{is_in_batch, is_result, is_results};
+use genga::error::did_you_mean;
+use genga::recipe::{Knob, unknown_beside};
 use genga::sanitize::is_hidden;
 
 /// A clip of a batch.
@@ -20,14 +24,22 @@ pub(crate) struct Item {
     pub(crate) path: PathBuf,
     /// Name, unique in the list: the path without the folders common to all, separated by `/`.
     pub(crate) name: String,
-    /// Options of this clip alone, as on the command line.
-    pub(crate) own: Vec<String>,
+    pub(crate) own: Own,
     /// Bytes of the file, 0 if it does not exist.
     pub(crate) size: u64,
 }
 
+/// The options of a clip alone.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(crate) struct Own {
+    /// The options as on the command line.
+    pub(crate) words: Vec<String>,
+    /// The table and the line that they are from: `table.csv:3`.
+    pub(crate) row: String,
+}
+
 /// A clip's path and its own options.
-type Named = (PathBuf, Vec<String>);
+type Named = (PathBuf, Own);
 
 /// All clips of a batch.
 pub(crate) struct Clips {
@@ -81,7 +93,7 @@ fn of_word(word: &str, walk: &mut Walk) -> Result<Vec<Named>, Failure> {
         return walk.pattern(word);
     }
     match path.exists() {
-        true => Ok(vec![(path.into(), vec![])]),
+        true => Ok(vec![(path.into(), Own::default())]),
         false => Err(Failure::io(path, io::ErrorKind::NotFound.into())),
     }
 }
@@ -94,7 +106,7 @@ fn lined(bytes: &[u8], list: &Path) -> Result<Vec<Named>, Failure> {
     let lines = lines.map(|line| line.strip_suffix(b"\r").unwrap_or(line));
     let lines = lines.filter(|line| !line.trim_ascii().is_empty() && !line.starts_with(b"#"));
     let path = |line| path_of(line).ok_or_else(|| not_utf8(list));
-    lines.map(|line| Ok((path(line)?, vec![]))).collect()
+    lines.map(|line| Ok((path(line)?, Own::default()))).collect()
 }
 
 #[cfg(unix)]
@@ -132,38 +144,71 @@ fn of_list(list: &Path) -> Result<Vec<Named>, Failure> {
     let text = String::from_utf8(bytes).map_err(|_| not_utf8(list))?;
     let text = text.trim_start_matches('\u{feff}');
     let table = if ending == Some("csv") { of_table(text) } else { of_objects(text) };
-    table
-        .map_err(|(line, reason)| Failure::CouldNot(format!("{}:{line}: {reason}", list.display())))
+    let row = |line: usize| format!("{}:{line}", list.display());
+    let rows = table
+        .map_err(|(line, reason)| Failure::AskedWrongly(format!("{}: {reason}", row(line))))?;
+    let named = |(line, path, words)| (path, Own { words, row: row(line) });
+    Ok(rows.into_iter().map(named).collect())
 }
 
-/// Parses a CSV table with a column `clip` and columns named like options.
-fn of_table(text: &str) -> Result<Vec<Named>, (usize, String)> {
-    let mut reader = csv::Reader::from_reader(text.as_bytes());
+/// The line of a clip in a table, its path and its options.
+type Row = (usize, PathBuf, Vec<String>);
+
+/// Parses a CSV table with a column `clip` and columns named like options. Fields are separated by commas, semicolons or
+/// tabs.
+fn of_table(text: &str) -> Result<Vec<Row>, (usize, String)> {
+    let names = text.lines().next().unwrap_or_default();
+    let count = |byte: &u8| names.bytes().filter(|other| other == byte).count();
+    let delimiter = [b'\t', b';', b','].into_iter().max_by_key(count).unwrap_or(b',');
+    let mut reader = csv::ReaderBuilder::new();
+    let reader = reader.delimiter(delimiter).trim(csv::Trim::All);
+    let mut reader = reader.from_reader(text.as_bytes());
+    let options = Options::new();
     let fault = |error: csv::Error| {
         (error.position().map_or(1, |place| place.line() as usize), error.to_string())
     };
     let header = reader.headers().map_err(fault)?.clone();
-    let mut named = Vec::new();
+    if !header.iter().any(|name| name == CLIP) {
+        return Err((1, NO_CLIP.into()));
+    }
+    header.iter().try_for_each(|name| options.check(name)).map_err(|reason| (1, reason))?;
+    let mut rows = Vec::new();
     for record in reader.records() {
         let record = record.map_err(fault)?;
         let line = record.position().map_or(1, |place| place.line() as usize);
-        let cells = header.iter().zip(&record).map(|(name, cell)| (name.trim(), cell.to_owned()));
-        named.push(of_cells(cells).map_err(|reason| (line, reason))?);
+        let cells = header.iter().zip(&record);
+        let cells = cells.map(|(name, cell)| (name.to_owned(), cell.to_owned())).collect();
+        let (path, words) = options.row(cells).map_err(|reason| (line, reason))?;
+        rows.push((line, path, words));
     }
-    Ok(named)
+    Ok(rows)
 }
 
 /// Parses JSON Lines: one object per clip.
-fn of_objects(text: &str) -> Result<Vec<Named>, (usize, String)> {
+fn of_objects(text: &str) -> Result<Vec<Row>, (usize, String)> {
+    let options = Options::new();
     let lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
     let object = |(at, line): (usize, &str)| {
         let read: Result<serde_json::Map<String, serde_json::Value>, _> =
             serde_json::from_str(line);
         let object = read.map_err(|error| (at + 1, error.to_string()))?;
-        let cells = object.iter().map(|(name, value)| (name.as_str(), word_of(value)));
-        of_cells(cells).map_err(|reason| (at + 1, reason))
+        let cells = object.iter().flat_map(|(name, value)| cells_of(name, value)).collect();
+        let row = options.row(cells).map(|(path, words)| (at + 1, path, words));
+        row.map_err(|reason| (at + 1, reason))
     };
     lines.map(object).collect()
+}
+
+/// The cells of a member of an object. One that is an object has a cell for each of its own: `{"set": {"spacing.on": 3}}`
+/// is `set.spacing.on`.
+fn cells_of(name: &str, value: &serde_json::Value) -> Vec<(String, String)> {
+    match value {
+        serde_json::Value::Object(members) => {
+            let inside = members.iter();
+            inside.flat_map(|(own, value)| cells_of(&format!("{name}.{own}"), value)).collect()
+        }
+        plain => vec![(name.to_owned(), word_of(plain))],
+    }
 }
 
 /// Formats a JSON value as on the command line.
@@ -178,19 +223,93 @@ fn word_of(value: &serde_json::Value) -> String {
     }
 }
 
-fn of_cells<'a>(cells: impl Iterator<Item = (&'a str, String)>) -> Result<Named, String> {
-    let (mut path, mut own) = (None, Vec::new());
-    for (name, cell) in cells {
-        match name.strip_prefix("set.") {
-            _ if name == "clip" => path = Some(cell).filter(|cell| !cell.is_empty()),
-            _ if cell.is_empty() || cell == "false" => {}
-            Some(key) => own.push(format!("--set={key}={cell}")),
-            None if cell == "true" => own.push(format!("--{name}")),
-            None => own.push(format!("--{name}={cell}")),
+/// The column of the paths.
+const CLIP: &str = "clip";
+/// The message if it is missing.
+const NO_CLIP: &str = "the clip is missing: a column clip has its path";
+/// Beginning of the columns that are settings.
+const SET: &str = "set.";
+
+/// The options that a clip may have of its own.
+struct Options(Command);
+
+impl Options {
+    fn new() -> Self {
+        Self(PlanArgs::augment_args(Command::new("genga")))
+    }
+
+    fn find(&self, name: &str) -> Option<&Arg> {
+        self.0.get_arguments().find(|option| option.get_long() == Some(name))
+    }
+
+    /// Refuses a column that is neither an option nor a setting.
+    fn check(&self, name: &str) -> Result<(), String> {
+        if let Some(setting) = name.strip_prefix(SET) {
+            return check_setting(setting);
+        }
+        if name == CLIP || self.find(name).is_some() {
+            return Ok(());
+        }
+        let hint = match Knob::find(name) {
+            Ok(_) => format!("; did you mean {SET}{name}?"),
+            Err(_) => {
+                let names = self.0.get_arguments().filter_map(Arg::get_long);
+                did_you_mean(name, names.chain([CLIP]))
+            }
+        };
+        let way_out = if hint.is_empty() { "; genga run --help lists them" } else { &hint };
+        Err(format!("{name}: there is no such option of a clip{way_out}"))
+    }
+
+    /// Returns the path of a row and its options, as on the command line.
+    fn row(&self, cells: Vec<(String, String)>) -> Result<(PathBuf, Vec<String>), String> {
+        cells.iter().try_for_each(|(name, _)| self.check(name))?;
+        let (path, cells): (Vec<_>, Vec<_>) = cells
+            .into_iter()
+            .filter(|(_, cell)| !cell.is_empty())
+            .partition(|(name, _)| name == CLIP);
+        let path = path.into_iter().next_back().map(|(_, path)| path).ok_or(NO_CLIP)?;
+        let words = cells.iter().map(|(name, cell)| self.word(name, cell));
+        let words: Result<Vec<Option<String>>, String> = words.collect();
+        let words = words.map_err(|reason| format!("{path}: {reason}"))?;
+        Ok((path.into(), words.into_iter().flatten().collect()))
+    }
+
+    /// Returns a cell as on the command line; `None` for a switch that is off.
+    fn word(&self, name: &str, cell: &str) -> Result<Option<String>, String> {
+        if let Some(setting) = name.strip_prefix(SET) {
+            return Ok(Some(format!("--set={setting}={cell}")));
+        }
+        let option = self.find(name);
+        let is_switch = option.is_some_and(|option| !option.get_action().takes_values());
+        let may_be_bare = |option: &Arg| option.get_num_args().is_some_and(|n| n.min_values() == 0);
+        if !is_switch && !option.is_some_and(may_be_bare) {
+            return Ok(Some(format!("--{name}={cell}")));
+        }
+        match is_yes(cell) {
+            Some(true) => Ok(Some(format!("--{name}"))),
+            Some(false) => Ok((!is_switch).then(|| format!("--{name}=false"))),
+            None => Err(format!("{name}: expected yes or no, found \"{cell}\"")),
         }
     }
-    let path = path.ok_or("the clip is missing: a column clip has its path")?;
-    Ok((path.into(), own))
+}
+
+/// Refuses a setting that does not exist. Names of layers and joints are for the clip to know.
+fn check_setting(name: &str) -> Result<(), String> {
+    let knob = name.rsplit_once('/').map_or(name, |(_, knob)| knob);
+    let is_known = knob.starts_with("keys.weights.")
+        || ["passages", "outside"].contains(&knob)
+        || Knob::find(knob).is_ok();
+    if is_known { Ok(()) } else { Err(format!("{SET}{}", unknown_beside(knob, &[]))) }
+}
+
+/// What the cell of a switch says.
+fn is_yes(cell: &str) -> Option<bool> {
+    match cell.to_ascii_lowercase().as_str() {
+        "yes" | "true" | "on" | "1" => Some(true),
+        "no" | "false" | "off" | "0" => Some(false),
+        _ => None,
+    }
 }
 
 impl Walk {
@@ -211,7 +330,7 @@ impl Walk {
                 }
                 Ok(entry) if entry.file_type().is_file() && is_motion(entry.path()) => {
                     if !self.skips_file(entry.path()) {
-                        found.push((entry.into_path(), vec![]));
+                        found.push((entry.into_path(), Own::default()));
                     }
                 }
                 Ok(_) => {}
@@ -221,7 +340,7 @@ impl Walk {
                         error
                             .path()
                             .filter(|path| is_motion(path))
-                            .map(|path| (path.into(), vec![])),
+                            .map(|path| (path.into(), Own::default())),
                     );
                 }
                 Err(error) => return Err(Failure::CouldNot(error.to_string())),
@@ -243,7 +362,7 @@ impl Walk {
                     found.extend(self.folder(&path)?);
                 }
             } else if is_motion(&path) && !self.is_in_out(&path) && !self.skips_file(&path) {
-                found.push((path, vec![]));
+                found.push((path, Own::default()));
             }
         }
         match found.is_empty() && self.skipped.is_empty() {
@@ -320,7 +439,7 @@ mod tests {
     use super::*;
 
     fn names(paths: &[&str]) -> Vec<String> {
-        let named = paths.iter().map(|path| (PathBuf::from(path), vec![])).collect();
+        let named = paths.iter().map(|path| (PathBuf::from(path), Own::default())).collect();
         called(named).into_iter().map(|item| item.name).collect()
     }
 
@@ -346,12 +465,17 @@ mod tests {
         let table = "clip,trim,set.spacing.on,repair\na.bvh,1..9,3,true\nb.bvh,,,false\n";
         let lines = "{\"clip\": \"a.bvh\", \"trim\": \"1..9\", \"set.spacing.on\": 3, \"repair\": true}\n\n{\"clip\": \"b.bvh\"}\n";
         let own = ["--trim=1..9", "--set=spacing.on=3", "--repair"].map(str::to_owned).to_vec();
-        let wanted = vec![("a.bvh".into(), own), ("b.bvh".into(), vec![])];
+        let row = |(line, path, words): (usize, &str, &[String])| {
+            (line, PathBuf::from(path), words.to_vec())
+        };
+        let wanted = vec![row((2, "a.bvh", &own)), row((3, "b.bvh", &[]))];
         assert_eq!(of_table(table).unwrap(), wanted);
         let mut read = of_objects(lines).unwrap();
-        read[0].1.sort_by_key(|word| wanted[0].1.iter().position(|other| other == word));
+        read[0].2.sort_by_key(|word| own.iter().position(|other| other == word));
+        // The table has a header in front, and the lines an empty one in between.
+        read[0].0 += 1;
         assert_eq!(read, wanted);
-        assert_eq!(of_table("trim\n1..9\n").unwrap_err().0, 2);
+        assert_eq!(of_table("trim\n1..9\n").unwrap_err().0, 1);
         assert_eq!(of_objects("{\"clip\": \"a\"}\n{").unwrap_err().0, 2);
     }
 

@@ -54,14 +54,25 @@ impl<'a> Asked<'a> {
     /// Returns the settings of a clip, its own options included, and a digest of all.
     fn of_one(&self, item: &Item) -> Result<(OfOne, String), Failure> {
         let mut plan = self.plan.for_clip(&item.path);
-        if item.own.is_empty() {
+        if item.own.words.is_empty() {
             let (recipe, edits) = (self.recipe.clone(), self.edits.clone());
             return Ok((OfOne { plan, recipe, edits }, self.digest.clone()));
         }
-        plan = with(plan, &item.own)?;
+        plan = with(plan, &item.own.words)?;
         let Plan { recipe, edits, .. } = Plan::from_args(&plan)?;
         let digest = digest(&plan, self.formats, &recipe, &edits)?;
         Ok((OfOne { plan, recipe, edits }, digest))
+    }
+
+    /// Returns the same, and names the row of a table if its options are wrong.
+    fn of_row(&self, item: &Item) -> Result<(OfOne, String), Failure> {
+        self.of_one(item).map_err(|failure| match item.own.words.is_empty() {
+            true => failure,
+            false => {
+                let (row, clip) = (&item.own.row, item.path.display());
+                Failure::AskedWrongly(format!("{row}: {clip}: {failure}"))
+            }
+        })
     }
 }
 
@@ -150,7 +161,7 @@ pub(crate) struct Begun<'a> {
 impl<'a> Begun<'a> {
     pub(crate) fn new(asked: &Asked<'_>, at: usize, item: &'a Item) -> Self {
         let (file, asked) = match digest_of_file(&item.path) {
-            Ok(file) => (file, asked.of_one(item)),
+            Ok(file) => (file, asked.of_row(item)),
             Err(failure) => (String::new(), Err(failure)),
         };
         Self { at, item, file, asked }
