@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use genga::sanitize::cell;
 use genga::sheet::{Layer, Number, Sheet};
 
 /// What stands on a koma without a drawing.
@@ -24,13 +25,11 @@ impl TvPaint<'_> {
     pub(super) fn write(&self, sheet: &Sheet, numbers: &[Vec<Option<Number>>]) -> String {
         let (koma, rate) = (sheet.cut_length(), sheet.clock.koma_rate);
         let ((wide, high), layers) = (self.size, self.columns.len());
-        let mut text = String::from("UTF-8, TVPaint, \"CSV 1.1\"\r\n");
-        text += "Project Name, Width, Height, Frame Count, Layer Count, Frame Rate, Pixel Aspect Ratio, Field Mode\r\n";
-        let name = self.cut;
-        let _ = write!(
-            text,
-            "\"{name}\", {wide}, {high}, {koma}, {layers}, {rate}, 1, Progressive\r\n"
-        );
+        let mut text = String::from("UTF-8, TVPaint, \"CSV 1.1\"\n");
+        text += "Project Name, Width, Height, Frame Count, Layer Count, Frame Rate, Pixel Aspect Ratio, Field Mode\n";
+        let name = cell(self.cut);
+        let _ =
+            write!(text, "\"{name}\", {wide}, {high}, {koma}, {layers}, {rate}, 1, Progressive\n");
         // The foremost layer comes first.
         let folder = |column: &&str| format!("\"{}/{column}\"", self.kind);
         row(&mut text, "#Layers", self.columns.iter().map(|column| format!("\"{column}\"")));
@@ -56,7 +55,7 @@ fn row(text: &mut String, head: &str, cells: impl DoubleEndedIterator<Item = Str
         *text += ", ";
         *text += &cell;
     }
-    *text += "\r\n";
+    *text += "\n";
 }
 
 /// The file of the picture on each koma of the cut.
