@@ -29,7 +29,7 @@ impl TvPaint<'_> {
         text += "Project Name, Width, Height, Frame Count, Layer Count, Frame Rate, Pixel Aspect Ratio, Field Mode\n";
         let name = cell(self.cut);
         let _ =
-            write!(text, "\"{name}\", {wide}, {high}, {koma}, {layers}, {rate}, 1, Progressive\n");
+            writeln!(text, "\"{name}\", {wide}, {high}, {koma}, {layers}, {rate}, 1, Progressive");
         // The foremost layer comes first.
         let folder = |column: &&str| format!("\"{}/{column}\"", self.kind);
         row(&mut text, "#Layers", self.columns.iter().map(|column| format!("\"{column}\"")));
