@@ -23,9 +23,8 @@ struct Part {
 pub(super) fn other(folder: &Path, clip: &Clip) -> Option<String> {
     let path = folder.join("sheet.json");
     let Made { clip: before } = serde_json::from_slice(&fs::read(&path).ok()?).ok()?;
-    let past = |from: usize, frames: usize| from + frames;
-    let was = (before.first_frame, past(before.first_frame, before.frames));
-    let is = (clip.first().0, past(clip.first().0, clip.len()));
+    let was = (before.first_frame, before.first_frame + before.frames);
+    let is = (clip.first().0, clip.first().0 + clip.len());
     let last = |(from, past): (usize, usize)| format!("{from} to {}", past.saturating_sub(1));
     (was != is).then(|| {
         format!(

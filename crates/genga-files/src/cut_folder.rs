@@ -63,13 +63,16 @@ pub(super) fn write(cut: &Cut<'_>, settings: &Settings, put: &mut Sink<'_>) -> R
     put(&at("CUT_timesheet.html"), paper.html.as_bytes())?;
     let mut columns = columns(cut);
     let genga: Vec<_> = cut.sheet.layers.iter().map(Layer::genga_numbers).collect();
-    let numbers = |layer: &Layer| layer.numbers().into_iter().map(Some).collect();
-    let douga: Vec<Vec<_>> = cut.sheet.layers.iter().map(numbers).collect();
+    let douga: Vec<_> = cut.sheet.layers.iter().map(Layer::numbers).collect();
     let folders: Vec<&str> = columns.iter().map(|column| &column.folder[..]).collect();
     let size = (settings.images.width, settings.images.height);
-    for (kind, numbers) in [(GENGA, &genga), (DOUGA, &douga)] {
+    let picture_of = |kind: &str, layer: usize, drawing: usize| match kind {
+        GENGA => genga[layer][drawing].as_ref(),
+        _ => Some(&douga[layer][drawing]),
+    };
+    for kind in [GENGA, DOUGA] {
         let csv = TvPaint { cut: &cut.file("CUT"), kind, columns: &folders, size };
-        let csv = csv.write(cut.sheet, numbers);
+        let csv = csv.write(cut.sheet, |layer, drawing| picture_of(kind, layer, drawing));
         put(&at(&format!("{kind}/{}", cut.file("CUT.csv"))), csv.as_bytes())?;
     }
     // Columns are stacked on each other, so their pictures need a transparent background.
@@ -82,7 +85,7 @@ pub(super) fn write(cut: &Cut<'_>, settings: &Settings, put: &mut Sink<'_>) -> R
             put(&at(&picture(GENGA, &column.folder, number)), png)?;
             column.genga.push(number.clone());
         }
-        let Some(number) = &douga[own.layer][own.drawing] else { return Ok(()) };
+        let number = &douga[own.layer][own.drawing];
         column.douga.push(number.clone());
         put(&at(&picture(DOUGA, &column.folder, number)), &own.douga)
     })?;

@@ -76,6 +76,7 @@ pub use run_files::Run;
 pub use settings::{CsvSettings, Settings};
 pub use sts::sts;
 pub use study_table::study_csv;
+pub use table::delimiter;
 use table::{CsvText, csv_table, number};
 pub use timeline::Others;
 pub use turn_table::turns_csv;

@@ -48,15 +48,23 @@ impl CsvText {
     }
 }
 
-/// Reads a table whose fields are separated by commas, semicolons or tabs, depending on the program that saved it. Rows
-/// may be of different lengths.
-pub(super) fn table_reader(text: &str) -> csv::Reader<&[u8]> {
+/// Tells by the first line what separates the fields of a table: a comma, a semicolon or a tab.
+pub fn delimiter(text: &str) -> u8 {
     let header = text.lines().next().unwrap_or_default();
     let count = |byte: &u8| header.bytes().filter(|other| other == byte).count();
     // On a tie the last one wins: a comma if there is only one column.
-    let delimiter = [b'\t', b';', b','].into_iter().max_by_key(count).unwrap_or(b',');
+    [b'\t', b';', b','].into_iter().max_by_key(count).unwrap_or(b',')
+}
+
+/// Reads a table whose fields are separated by commas, semicolons or tabs, depending on the program that saved it. Rows
+/// may be of different lengths.
+pub(super) fn table_reader(text: &str) -> csv::Reader<&[u8]> {
     let mut reader = csv::ReaderBuilder::new();
-    reader.delimiter(delimiter).trim(csv::Trim::All).flexible(true).from_reader(text.as_bytes())
+    reader
+        .delimiter(delimiter(text))
+        .trim(csv::Trim::All)
+        .flexible(true)
+        .from_reader(text.as_bytes())
 }
 
 /// Formats a number for tables: the shortest form that reads back as the same value, −0 as 0.

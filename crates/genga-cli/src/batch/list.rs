@@ -16,6 +16,7 @@ use super::own_results::{is_in_batch, is_result, is_results};
 use genga::error::did_you_mean;
 use genga::recipe::{Knob, unknown_beside};
 use genga::sanitize::is_hidden;
+use genga_files::delimiter;
 
 /// A clip of a batch.
 #[derive(Debug, Clone, PartialEq)]
@@ -157,11 +158,8 @@ type Row = (usize, PathBuf, Vec<String>);
 /// Parses a CSV table with a column `clip` and columns named like options. Fields are separated by commas, semicolons or
 /// tabs.
 fn of_table(text: &str) -> Result<Vec<Row>, (usize, String)> {
-    let names = text.lines().next().unwrap_or_default();
-    let count = |byte: &u8| names.bytes().filter(|other| other == byte).count();
-    let delimiter = [b'\t', b';', b','].into_iter().max_by_key(count).unwrap_or(b',');
     let mut reader = csv::ReaderBuilder::new();
-    let reader = reader.delimiter(delimiter).trim(csv::Trim::All);
+    let reader = reader.delimiter(delimiter(text)).trim(csv::Trim::All);
     let mut reader = reader.from_reader(text.as_bytes());
     let options = Options::new();
     let fault = |error: csv::Error| {

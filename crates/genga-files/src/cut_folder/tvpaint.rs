@@ -20,9 +20,13 @@ pub(super) struct TvPaint<'a> {
 }
 
 impl TvPaint<'_> {
-    /// Writes the picture on each koma. `numbers` has for each layer the number of each drawing; a drawing without one
-    /// leaves the picture before it on screen.
-    pub(super) fn write(&self, sheet: &Sheet, numbers: &[Vec<Option<Number>>]) -> String {
+    /// Writes the picture on each koma. `number` gives that of a drawing of a layer; a drawing without one leaves the
+    /// picture before it on screen.
+    pub(super) fn write<'a>(
+        &self,
+        sheet: &Sheet,
+        number: impl Fn(usize, usize) -> Option<&'a Number>,
+    ) -> String {
         let (koma, rate) = (sheet.cut_length(), sheet.clock.koma_rate);
         let ((wide, high), layers) = (self.size, self.columns.len());
         let mut text = String::from("UTF-8, TVPaint, \"CSV 1.1\"\n");
@@ -37,9 +41,11 @@ impl TvPaint<'_> {
         row(&mut text, "#Blending", self.columns.iter().map(|_| "\"Color\"".into()));
         row(&mut text, "#Visible", self.columns.iter().map(|_| "1".into()));
         row(&mut text, "#Folder", self.columns.iter().map(folder));
-        let cells: Vec<Vec<String>> = (sheet.layers.iter().zip(self.columns).zip(numbers))
-            .map(|((layer, column), numbers)| pictures(sheet, layer, column, numbers))
-            .collect();
+        let columns = sheet.layers.iter().zip(self.columns).enumerate();
+        let cells = columns.map(|(at, (layer, column))| {
+            pictures(sheet, layer, |drawing| Some(super::file(column, number(at, drawing)?)))
+        });
+        let cells: Vec<Vec<String>> = cells.collect();
         for at in 0..koma {
             let on_koma = cells.iter().map(|column| format!("\"{}\"", column[at]));
             row(&mut text, &format!("#{at:05}"), on_koma);
@@ -59,12 +65,12 @@ fn row(text: &mut String, head: &str, cells: impl DoubleEndedIterator<Item = Str
 }
 
 /// The file of the picture on each koma of the cut.
-fn pictures(sheet: &Sheet, layer: &Layer, column: &str, numbers: &[Option<Number>]) -> Vec<String> {
+fn pictures(sheet: &Sheet, layer: &Layer, file: impl Fn(usize) -> Option<String>) -> Vec<String> {
     let mut pictures = vec![String::from(BLANK); sheet.cut_length()];
     let mut shown = String::from(BLANK);
     for (picture, drawing) in pictures[sheet.blank.before..].iter_mut().zip(layer.koma()) {
-        if let Some(number) = &numbers[drawing] {
-            shown = super::file(column, number);
+        if let Some(file) = file(drawing) {
+            shown = file;
         }
         picture.clone_from(&shown);
     }
