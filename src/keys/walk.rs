@@ -78,9 +78,6 @@ impl Walk {
 }
 
 impl Phase {
-    /// Number of phases.
-    pub const MOST: usize = 4;
-
     /// Returns its word in files.
     pub fn word(self) -> &'static str {
         match self {
@@ -91,13 +88,19 @@ impl Phase {
         }
     }
 
-    /// Returns the phases that fit into steps of so many koma.
-    fn with_room(koma: f64) -> &'static [Self] {
-        match koma {
-            koma if koma >= 4.0 * ROOM => &[Self::Contact, Self::Down, Self::Passing, Self::Up],
-            koma if koma >= 2.0 * ROOM => &[Self::Contact, Self::Passing],
-            _ => &[Self::Contact],
-        }
+    /// Returns the phases that have room in steps of so many koma, in which the other foot passes at a share of the way
+    /// from contact to contact. A phase without room would push the next one off its time.
+    fn with_room(koma: f64, passing: f64) -> Vec<Self> {
+        let koma = koma.round();
+        let passing = (passing * koma).round();
+        let holds_two = |koma: f64| koma >= 2.0 * ROOM;
+        let phases = [
+            (Self::Contact, true),
+            (Self::Down, holds_two(passing)),
+            (Self::Passing, holds_two(koma)),
+            (Self::Up, holds_two(koma - passing)),
+        ];
+        phases.into_iter().filter(|(_, is_drawn)| *is_drawn).map(|(phase, _)| phase).collect()
     }
 }
 

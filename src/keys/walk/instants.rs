@@ -23,8 +23,8 @@ pub(super) fn walk(gait: &Gait) -> (Walk, Instants) {
         WalkStep { contact, next, frames: Vec::new(), is_corrected: false }
     };
     let walk = Walk {
-        phases: phasing.phases.to_vec(),
         shares: (0..phasing.phases.len()).map(usual_share).collect(),
+        phases: phasing.phases,
         koma: phasing.koma,
         steps: gait.steps.iter().map(step).collect(),
     };
@@ -33,7 +33,7 @@ pub(super) fn walk(gait: &Gait) -> (Walk, Instants) {
 
 /// The phases of a gait, and how they are placed in each of its steps.
 struct Phasing {
-    phases: &'static [Phase],
+    phases: Vec<Phase>,
     /// Length of the median step in koma.
     koma: f64,
     /// Whether *down* and *up* are far enough from the phases beside them to be drawn where the body is lowest and
@@ -44,16 +44,17 @@ struct Phasing {
 impl Phasing {
     fn new(gait: &Gait) -> Self {
         let koma = middle(gait.steps.iter().map(length));
-        let usual = |at: fn(&Step) -> f64| {
-            koma * middle(gait.steps.iter().map(|step| share(step, at(step))))
-        };
+        let usual_share =
+            |at: fn(&Step) -> f64| middle(gait.steps.iter().map(|step| share(step, at(step))));
+        let usual = |at: fn(&Step) -> f64| koma * usual_share(at);
         let passing = usual(|step| step.passing);
         let is_between = |at: f64, from: f64, to: f64| from + ONE <= at && at <= to - ONE;
         let has_own = (
             is_between(usual(|step| step.down), 0.0, passing),
             is_between(usual(|step| step.up), passing, koma),
         );
-        Self { phases: Phase::with_room(koma), koma, has_own }
+        let phases = Phase::with_room(koma, usual_share(|step| step.passing));
+        Self { phases, koma, has_own }
     }
 
     /// Returns the instant of each phase of a step.

@@ -199,9 +199,20 @@ fn where_keys_are_frozen_steps_stay_that_were_there_and_no_others_come() {
 }
 
 #[test]
-fn fewer_phases_fit_into_shorter_steps() {
-    let count = |koma: f64| Phase::with_room(koma).len();
-    assert_eq!([20.0, 8.0, 7.9, 4.0, 3.9].map(count), [4, 4, 2, 2, 1]);
+fn a_step_has_the_phases_that_have_room_in_it() {
+    use Phase::{Contact, Down, Passing, Up};
+    for (koma, passing, phases) in [
+        (20.0, 0.5, vec![Contact, Down, Passing, Up]),
+        (8.0, 0.5, vec![Contact, Down, Passing, Up]),
+        (8.8, 0.36, vec![Contact, Passing, Up]),
+        (8.8, 0.62, vec![Contact, Down, Passing]),
+        (7.0, 0.48, vec![Contact, Passing, Up]),
+        (6.0, 0.5, vec![Contact, Passing]),
+        (3.6, 0.5, vec![Contact, Passing]),
+        (3.4, 0.5, vec![Contact]),
+    ] {
+        assert_eq!(Phase::with_room(koma, passing), phases, "{koma} {passing}");
+    }
 }
 
 #[test]

@@ -181,7 +181,7 @@ fn nearest(koma: f64) -> usize {
     (koma + 0.5 + HAIR).floor().max(0.0) as usize
 }
 
-/// Returns how many koma a drawing of a gait stays: the median over all its koma. If a step has room for four phases,
+/// Returns how many koma a drawing of a gait stays: the median over all its koma. If a step has room for *down* or *up*,
 /// that is at least two, as its genga show the pace.
 fn on(walk: &Walk, comes_early: bool, spacing: &Spacing, pace: &Pace<'_>) -> usize {
     let all = walk
@@ -191,7 +191,8 @@ fn on(walk: &Walk, comes_early: bool, spacing: &Spacing, pace: &Pace<'_>) -> usi
     let all = all.filter_map(|koma| usize::try_from(koma).ok());
     let on =
         median(all.map(|koma| spacing.stay(koma, pace) as f64)).unwrap_or(0.0).floor() as usize;
-    let least = if walk.phases.len() == Phase::MOST { spacing.on.stay() } else { 1 };
+    let shows_pace = [Phase::Down, Phase::Up].iter().any(|phase| walk.phases.contains(phase));
+    let least = if shows_pace { spacing.on.stay() } else { 1 };
     on.max(least)
 }
 
