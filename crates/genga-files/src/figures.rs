@@ -15,6 +15,8 @@ pub struct FigureSettings {
     pub png: bool,
     /// Body style of the figures; default mannequin.
     pub body: FigureBody,
+    /// Camera of the row of poses; default auto. The other pictures have their own.
+    pub camera: Camera,
 }
 
 knobs!(figures::FigureSettings {
@@ -30,6 +32,7 @@ knobs!(figures::FigureSettings {
         "人物の描き方。デッサン人形（mannequin）か棒人間（sticks）。\
          頭と両腕両脚のない体は棒人間になる。"
     ),
+    camera: knob("カメラ", "Camera of the row of poses.", "ポーズの図のカメラ。"),
 });
 
 /// Draws the source above the result.
@@ -108,6 +111,7 @@ fn png(_: &str) -> Result<Vec<u8>, Error> {
 impl Settings {
     /// Sets the camera of all pictures of figures.
     pub fn look_from(&mut self, camera: Camera) {
+        self.figures.camera = camera;
         self.strip.camera = camera;
         self.contact.camera = camera;
         self.onion.camera = camera;
@@ -127,10 +131,13 @@ mod tests {
     fn one_camera_for_every_picture_and_one_each_on_top() {
         let mut settings = Settings::default();
         settings.look_from(Camera::Front);
+        let all = settings.settings();
+        let cameras: Vec<_> =
+            all.iter().filter(|(knob, _)| knob.name.ends_with(".camera")).collect();
+        assert_eq!(cameras.len(), 8, "{cameras:?}");
+        assert!(cameras.iter().all(|(_, camera)| camera == "front"), "{cameras:?}");
         settings.set("strip.camera", "three-quarter").unwrap();
         assert_eq!(settings.strip.camera, Camera::ThreeQuarter);
-        let cameras = [settings.contact.camera, settings.onion.camera, settings.flipbook.camera];
-        assert_eq!(cameras, [Camera::Front; 3]);
         assert!(settings.set("strip.camera", "top").is_err());
         assert!(settings.set("strip.rows", "0").is_err(), "settings are checked as they are set");
     }

@@ -282,7 +282,7 @@ pub const FORMATS: &[Format] = &[
         goes_to: "pictures",
         files: &["poses.svg"],
         make: |cut, settings, put| {
-            put("poses.svg", pictures::poses(cut, settings.figures.body)?.as_bytes())
+            put("poses.svg", pictures::poses(cut, &settings.figures)?.as_bytes())
         },
         ..PLAIN
     },

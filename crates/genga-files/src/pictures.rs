@@ -1,12 +1,12 @@
 //! Pictures of a sheet: as bars, and its kept drawings as poses.
 
-use crate::Cut;
 use crate::sheet_json::MadeWith;
+use crate::{Cut, FigureSettings};
 use genga::error::Error;
 use genga::motion::{Screen, SeenFrom, played_out};
 use genga::sheet::Sheet;
 use genga::timing::Stills;
-use genga_plot::{FigureBody, PoseRow, SheetPlot};
+use genga_plot::{PoseRow, SheetPlot};
 
 /// Draws the sheet as bars (SVG), with how far the body moves into each koma. If the sheet before omission is
 /// known, the omitted drawings are shown too.
@@ -29,6 +29,8 @@ pub fn bars(cut: &Cut<'_>) -> Result<String, Error> {
 ///
 /// # Errors
 /// [`Error::Sheet`] as [`Sheet::first_layer`]; [`Error::Picture`] if it cannot be drawn.
-pub fn poses(cut: &Cut<'_>, body: FigureBody) -> Result<String, Error> {
-    PoseRow { clip: cut.name.to_owned(), body, ..PoseRow::default() }.draw_kept(cut.clip, cut.sheet)
+pub fn poses(cut: &Cut<'_>, settings: &FigureSettings) -> Result<String, Error> {
+    let FigureSettings { body, camera, .. } = *settings;
+    let row = PoseRow { clip: cut.name.to_owned(), body, camera, ..PoseRow::default() };
+    row.draw_kept(cut.clip, cut.sheet)
 }

@@ -11,7 +11,6 @@ use crate::figure::{Drawn, Ink, Shape, Stroke};
 use crate::paper_point::Point;
 use crate::style;
 use genga::motion::BodySide;
-use genga::sheet::Number;
 
 /// Alignment of a text to its point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -249,17 +248,16 @@ impl Canvas {
         ));
     }
 
-    /// Draws the number of a genga in a circle (丸数字), which is filled for pinned drawings.
-    pub(super) fn badge(&mut self, center: Point, number: &Number, color: RGBColor, filled: bool) {
+    /// Draws the sign of a genga, its number in a circle (丸数字). It is filled for pinned drawings.
+    pub(super) fn badge(&mut self, center: Point, number: &str, color: RGBColor, filled: bool) {
         let (fill, ink) = if filled { (color, style::PAPER) } else { (style::PAPER, color) };
         let (reach, radius) = (style::badge_reach(number) - 0.6, style::BADGE - 0.6);
-        let number = number.to_string();
         match number.len() {
             0..=2 => self.circle(center, radius, Some(fill), Some((color, 1.2))),
             _ => self.pill(center, (reach, radius), fill, (color, 1.2)),
         }
         let look = Type::new(style::SMALL).bold().color(ink).align(Align::Center);
-        self.text(&number, (center.0, center.1 + 0.36 * style::SMALL), look);
+        self.text(number, (center.0, center.1 + 0.36 * style::SMALL), look);
     }
 
     /// Draws a circle that is longer than high, by half its length and half its height.

@@ -5,7 +5,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::canvas::{Align, Canvas, Inks, Type};
 use crate::chart::number;
-use crate::drawings::{ShownDrawing, composed, drawn_poses, seconds_and_koma, shown_drawings};
+use crate::drawings::{
+    ShownDrawing, Signs, composed, drawn_poses, seconds_and_koma, shown_drawings,
+};
 use crate::figure::{Figure, FigureBody};
 use crate::legend::SIDES;
 use crate::page_head::{self, Head};
@@ -97,7 +99,8 @@ impl ContactSheet {
         let layer = composite.layer();
         let figure = Figure::new(clip, self.body);
         let poses = drawn_poses(&composite, figure.marks(), layer.drawings.len());
-        let mut cards = shown_drawings(layer);
+        let (signs, mut cards) = (Signs::new(sheet), shown_drawings(layer));
+        signs.give(&mut cards);
         cards.retain(|cell| self.inbetweens || cell.genga.is_some());
         if cards.is_empty() {
             return Err(style::cannot("the sheet has no genga to show"));
@@ -165,7 +168,7 @@ struct Card<'a> {
 
 impl<'a> Card<'a> {
     fn new(cell: ShownDrawing<'a>, koma_rate: f64) -> Self {
-        let head = [format!("drawing {}", cell.number()), seconds_and_koma(cell.koma, koma_rate)];
+        let head = [format!("drawing {}", cell.sign()), seconds_and_koma(cell.koma, koma_rate)];
         let place = number((cell.drawing.source.place() * 10.0).round() / 10.0);
         let held = if cell.held == 1 { String::new() } else { format!(" · {} koma", cell.held) };
         Self { cell, head, facts: format!("frame {place}{held}") }
@@ -209,7 +212,7 @@ impl Table {
         let color = style::of_role(cell.drawing.role);
         let reach = cell.reach();
         let sign = (x + 8.0 + reach, y + 18.0);
-        match cell.genga_number() {
+        match cell.genga_sign() {
             Some(genga) => canvas.badge(sign, &genga, color, cell.is_pinned()),
             None => canvas.disc(sign, 3.0, color),
         }

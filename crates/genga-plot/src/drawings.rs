@@ -1,6 +1,7 @@
 //! Labels the drawings of a sheet for pictures: numbers, koma, names.
 
 use std::borrow::Cow;
+use std::collections::BTreeMap;
 
 use glam::DVec3;
 
@@ -25,6 +26,8 @@ pub struct ShownDrawing<'a> {
     pub held: usize,
     /// Place among all drawings, from 1.
     place: usize,
+    /// Its sign if it is composited from several columns.
+    sign: Option<&'a Sign>,
 }
 
 impl ShownDrawing<'_> {
@@ -38,9 +41,25 @@ impl ShownDrawing<'_> {
         self.genga.map(|place| self.drawing.genga_number(place))
     }
 
+    /// Returns what a picture calls the drawing: its number, or those of the columns that draw anew.
+    pub(super) fn sign(&self) -> String {
+        self.sign.map_or_else(|| self.number().to_string(), |sign| sign.drawing.clone())
+    }
+
+    /// Returns the same of its genga; `None` for an inbetween.
+    pub(super) fn genga_sign(&self) -> Option<String> {
+        let number = self.genga_number()?.to_string();
+        Some(self.sign.and_then(|sign| sign.genga.clone()).unwrap_or(number))
+    }
+
+    /// Whether it is composited from several columns.
+    pub(super) fn is_composite(&self) -> bool {
+        self.sign.is_some()
+    }
+
     /// Returns half the width of the sign of its genga, in px.
     pub(super) fn reach(&self) -> f64 {
-        self.genga_number().map_or(style::BADGE, |number| style::badge_reach(&number))
+        self.genga_sign().map_or(style::BADGE, |sign| style::badge_reach(&sign))
     }
 
     /// Whether a person pinned it.
@@ -89,7 +108,7 @@ pub fn shown_drawings(layer: &Layer) -> Vec<ShownDrawing<'_>> {
         let index = exposure.drawing;
         let drawing = &layer.drawings[index];
         let (genga, held, place) = (genga[index], exposure.koma, index + 1);
-        ShownDrawing { drawing, index, genga, koma, held, place }
+        ShownDrawing { drawing, index, genga, koma, held, place, sign: None }
     };
     layer.timed().map(cell).collect()
 }
@@ -103,6 +122,65 @@ pub(super) fn shown_as<'a>(layer: &'a Layer, named: &Layer) -> Vec<ShownDrawing<
         (cell.place, cell.genga) = (index + 1, genga[index]);
     }
     cells
+}
+
+/// The signs of composited drawings, by their koma: the columns that draw anew there, as `A7 C5`. On the timesheet each
+/// column has numbers of its own, and a composite has none.
+#[derive(Debug, Default)]
+pub(super) struct Signs(BTreeMap<usize, Sign>);
+
+/// The sign of a composited drawing.
+#[derive(Debug, PartialEq, Eq)]
+struct Sign {
+    drawing: String,
+    /// That of its genga, if there are some.
+    genga: Option<String>,
+}
+
+impl Signs {
+    /// Names the drawings of a sheet of several columns; empty for one column.
+    pub(super) fn new(sheet: &Sheet) -> Self {
+        let columns = columns(sheet);
+        if columns.len() < 2 {
+            return Self::default();
+        }
+        let mut drawn: BTreeMap<usize, [Vec<String>; 2]> = BTreeMap::new();
+        for column in columns {
+            let (numbers, genga) = (column.numbers(), column.genga_numbers());
+            for (koma, Exposure { drawing, .. }) in column.timed() {
+                let [all, kept] = drawn.entry(koma).or_default();
+                let named = |number: &Number| format!("{}{number}", column.name);
+                all.push(named(&numbers[drawing]));
+                kept.extend(genga[drawing].as_ref().map(named));
+            }
+        }
+        let sign = |[all, kept]: [Vec<String>; 2]| Sign {
+            drawing: shortened(&all),
+            genga: (!kept.is_empty()).then(|| shortened(&kept)),
+        };
+        Self(drawn.into_iter().map(|(koma, names)| (koma, sign(names))).collect())
+    }
+
+    /// Gives the drawings of the composite their signs.
+    pub(super) fn give<'a>(&'a self, cells: &mut [ShownDrawing<'a>]) {
+        cells.iter_mut().for_each(|cell| cell.sign = self.0.get(&cell.koma));
+    }
+}
+
+/// Returns the columns of a sheet that pose joints.
+pub(super) fn columns(sheet: &Sheet) -> Vec<&Layer> {
+    let poses = |(at, layer): &(usize, &Layer)| *at == 0 || !layer.joints.is_empty();
+    sheet.layers.iter().enumerate().filter(poses).map(|(_, layer)| layer).collect()
+}
+
+/// Joins the names of drawings; of more than three the first two, and how many others there are.
+fn shortened(names: &[String]) -> String {
+    match names {
+        [first, second, others @ ..] if others.len() > 1 => {
+            format!("{first} {second} +{}", others.len())
+        }
+        names => names.join(" "),
+    }
 }
 
 /// Combines all layers of a sheet as figures show them, after checking that they can be shown.

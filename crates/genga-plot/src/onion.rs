@@ -4,7 +4,7 @@ use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 use crate::canvas::{Align, Canvas, Inks, Type};
-use crate::drawings::{ShownDrawing, composed, drawn_poses, shown_drawings};
+use crate::drawings::{ShownDrawing, Signs, composed, drawn_poses, shown_drawings};
 use crate::figure::{Figure, FigureBody};
 use crate::legend::SIDES;
 use crate::page_head::{self, Head};
@@ -90,7 +90,8 @@ impl OnionSkin {
         let figure = Figure::new(clip, self.body);
         let poses = drawn_poses(&composite, figure.marks(), layer.drawings.len());
         let view = self.camera.view(clip, &poses);
-        let cells = shown_drawings(layer);
+        let (signs, mut cells) = (Signs::new(sheet), shown_drawings(layer));
+        signs.give(&mut cells);
         let ways = ways(&cells);
         let panels: Vec<Panel<'_>> =
             ways.into_iter().map(|way| Panel::new(way, &figure, &view, &poses)).collect();
@@ -252,7 +253,7 @@ fn words(canvas: &mut Canvas, panel: &Panel<'_>, (x, y): Point, (wide, high): (f
             canvas.line((left - 9.0, y + 19.0), (left - 2.0, y + 19.0), style::FAINT, 1.25);
         }
         let (at, color) = ((left + cell.reach(), y + 19.0), style::of_role(cell.drawing.role));
-        match cell.genga_number() {
+        match cell.genga_sign() {
             Some(genga) => canvas.badge(at, &genga, color, cell.is_pinned()),
             None => canvas.disc(at, 3.0, color),
         }

@@ -1,7 +1,7 @@
 //! Draws the head that all pages of figures share: the title, the counts of the cut, the legend.
 
 use crate::canvas::{Align, Canvas, Type};
-use crate::drawings::seconds_and_koma;
+use crate::drawings::{columns, seconds_and_koma};
 use crate::legend::{self, Entry};
 use crate::style;
 use genga::sheet::{Blank, Layer, Sheet};
@@ -46,16 +46,21 @@ impl Head<'_> {
     }
 }
 
-/// Formats the counts of a layer: koma, genga, drawings.
+/// Formats the counts of a cut: the koma of its composited `layer`, genga and drawings of all columns.
 pub(super) fn facts(sheet: &Sheet, layer: &Layer) -> String {
     let koma = layer.length();
     let length = seconds_and_koma(koma, sheet.clock.koma_rate);
-    let genga = layer.genga();
-    let drawings = layer.shown().count();
+    let columns = columns(sheet);
+    let genga: usize = columns.iter().map(|column| column.genga()).sum();
+    let drawings: usize = columns.iter().map(|column| column.shown().count()).sum();
     let plural = if drawings == 1 { "" } else { "s" };
+    let of = match columns.len() {
+        1 => String::new(),
+        count => format!(" · {count} columns セル"),
+    };
     with_first_koma(
         &format!(
-            "尺 {length} ({koma} koma) · genga 原画 {genga} · {drawings} drawing{plural} 動画"
+            "尺 {length} ({koma} koma) · genga 原画 {genga} · {drawings} drawing{plural} 動画{of}"
         ),
         sheet.blank,
     )

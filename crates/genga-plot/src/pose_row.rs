@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::canvas::{Align, Canvas, Inks, Type};
 use crate::chart::number;
-use crate::drawings::{ShownDrawing, composed, shown_drawings};
+use crate::drawings::{ShownDrawing, Signs, composed, shown_drawings};
 use crate::figure::{Figure, FigureBody};
 use crate::legend::SIDES;
 use crate::page_head;
@@ -16,7 +16,7 @@ use crate::style;
 use crate::title::{self, Title};
 use genga::error::Error;
 use genga::motion::{Camera, Clip, first_round};
-use genga::sheet::{Number, Role, Sheet, Source};
+use genga::sheet::{Role, Sheet, Source};
 
 /// Figures of some drawings, side by side, on one floor and of one scale.
 ///
@@ -38,6 +38,8 @@ pub struct PoseRow {
     /// How figures are drawn; default mannequin.
     #[serde(skip)]
     pub body: FigureBody,
+    /// Camera of the figures; default auto.
+    pub camera: Camera,
 }
 
 impl Default for PoseRow {
@@ -49,6 +51,7 @@ impl Default for PoseRow {
             in_line: 12,
             most: 300,
             body: FigureBody::default(),
+            camera: Camera::Auto,
         }
     }
 }
@@ -65,7 +68,7 @@ const NARROWEST: f64 = 380.0;
 /// The words below a figure.
 struct Label {
     /// Number of the genga in a circle, and whether a person pinned it.
-    number: Option<(Number, bool)>,
+    number: Option<(String, bool)>,
     words: String,
     frame: String,
     role: Role,
@@ -80,7 +83,8 @@ impl Label {
     /// Returns the width in px.
     fn width(&self) -> f64 {
         let words = style::BOLDER * style::text_width(&self.words, style::WORDS);
-        words.max(style::text_width(&self.frame, style::SMALL))
+        let sign = self.number.as_ref().map_or(0.0, |(sign, _)| 2.0 * style::badge_reach(sign));
+        words.max(style::text_width(&self.frame, style::SMALL)).max(sign)
     }
 
     /// Draws the words in their role's colour below a point on the floor, and the frame below them.
@@ -115,8 +119,6 @@ impl PoseRow {
     }
 
     /// Draws poses of a clip as SVG. Each is given by its place in the source, its label and its role.
-    ///
-    /// The camera stands on the side that shows most of the movement.
     ///
     /// # Errors
     /// [`Error::Setting`] as in [`PoseRow::validate`]; [`Error::Picture`] if there is no joint, no frame or
@@ -160,11 +162,12 @@ impl PoseRow {
         let (clip, sheet) = first_round(clip, sheet);
         let (clip, sheet) = (&*clip, &*sheet);
         let composite = composed(clip, sheet)?;
-        let mut kept = shown_drawings(composite.layer());
+        let (signs, mut kept) = (Signs::new(sheet), shown_drawings(composite.layer()));
+        signs.give(&mut kept);
         kept.retain(|cell| cell.genga.is_some());
         let label = |cell: &ShownDrawing<'_>| {
             let (place, words) = (cell.drawing.source.place(), format!("koma {}", cell.koma + 1));
-            let number = cell.genga_number().map(|number| (number, cell.is_pinned()));
+            let number = cell.genga_sign().map(|number| (number, cell.is_pinned()));
             Label { number, ..Label::new(place, words, cell.drawing.role) }
         };
         let figure = Figure::new(clip, self.body);
@@ -186,7 +189,7 @@ impl PoseRow {
             return Err(style::cannot("no pose to draw"));
         }
         let (all, labels) = (labels.len(), &labels[..poses.len()]);
-        let view = Camera::Auto.view(clip, poses);
+        let view = self.camera.view(clip, poses);
         let floor = Bounds::new(figure, &view, poses).floor;
         let size = largest(figure, &view, poses, floor);
         let room = f64::from(self.width) - 2.0 * style::MARGIN - GAP;

@@ -112,7 +112,7 @@ impl SpeedPlot {
             px.filter(|x| (LEFT..=right).contains(x)).collect()
         };
         let (keys, splits) = (px(keys), px(&self.splits));
-        let reach = |at: usize| style::badge_reach(&self.number(at)) + 0.5;
+        let reach = |at: usize| style::badge_reach(&self.number(at).to_string()) + 0.5;
         let marks = keys.iter().enumerate().map(|(at, x)| (*x, reach(at)));
         let lanes = style::lanes(marks, LANES);
         let used = lanes.iter().flatten().max().map_or(0.0, |lane| *lane as f64 + 1.0);
@@ -154,7 +154,7 @@ impl SpeedPlot {
             let y = top - style::BADGE - 3.0 - 2.0 * style::BADGE * lane as f64;
             // The first panel's name is left free.
             canvas.line((x, y + style::BADGE), (x, top + 2.0), style::GENGA_LINE, 1.0);
-            canvas.badge((x, y), &self.number(at), style::GENGA, false);
+            canvas.badge((x, y), &self.number(at).to_string(), style::GENGA, false);
         }
     }
 

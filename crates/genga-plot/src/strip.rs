@@ -5,7 +5,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::canvas::{Align, Canvas, Inks, Type};
 use crate::drawings::{
-    ShownDrawing, beginning, composed, drawn_poses, seconds_and_koma, shown_as, sliding_poses,
+    ShownDrawing, Signs, beginning, composed, drawn_poses, seconds_and_koma, shown_as,
+    sliding_poses,
 };
 use crate::figure::{Figure, FigureBody};
 use crate::legend::{LEFT_OUT, SIDES};
@@ -101,7 +102,8 @@ impl Strip {
     /// have nothing to show.
     pub fn draw(&self, cut: &str, clip: &Clip, sheet: &Sheet) -> Result<Vec<String>, Error> {
         self.validate()?;
-        let named = composed(clip, sheet)?.layer().clone();
+        let (named, signs) = (composed(clip, sheet)?.layer().clone(), Signs::new(sheet));
+        let facts = page_head::facts(sheet, &named);
         let (clip, played) = played_out(clip, sheet);
         let (clip, sheet) = (&*clip, &*played);
         let composite = composed(clip, sheet)?;
@@ -114,7 +116,8 @@ impl Strip {
         let place = |koma| sheet.clock.place_from_koma(koma);
         let koma = layer.length();
         let source = Posing::new(clip, marks).all((0..koma).map(|koma| Source::At(place(koma))));
-        let cells = shown_as(layer, &named);
+        let mut cells = shown_as(layer, &named);
+        signs.give(&mut cells);
         let all = sliding.as_ref().unwrap_or(&result);
         let (stage, in_line, column) = self.stage(clip, &figure, &source, all);
         let lines = koma.div_ceil(in_line);
@@ -134,7 +137,7 @@ impl Strip {
         let pages = lines.div_ceil(self.rows);
         let leaves_out = drawing.cells.iter().any(|cell| cell.drawing.why.omitted_before > 0);
         let page = |at: usize| {
-            let facts = page_head::facts(sheet, &named);
+            let facts = facts.clone();
             let title = "Source and result 素材と結果";
             let legend = [SIDES[0], SIDES[1], LEFT_OUT];
             let legend = if leaves_out { &legend[..] } else { &SIDES[..] };
@@ -280,13 +283,16 @@ impl Lines<'_> {
         }
         let label = (self.x(koma.start) + 0.5 * self.column, floor + 15.0);
         if koma.start == cell.koma {
-            match cell.genga_number() {
+            match cell.genga_sign() {
                 Some(genga) => canvas.badge(label, &genga, color, cell.is_pinned()),
                 None => canvas.disc(label, 3.0, color),
             }
             let look = Type::new(style::SMALL).color(style::FAINT);
             let beside = (label.0 + cell.reach() + 4.0, label.1 + 4.0);
-            canvas.text(&cell.number().to_string(), beside, look);
+            // A column has no room for the numbers of several.
+            if !cell.is_composite() {
+                canvas.text(&cell.sign(), beside, look);
+            }
             self.gap(canvas, cell, floor);
         }
         if cell.held > 1 {

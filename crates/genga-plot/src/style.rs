@@ -7,7 +7,7 @@ use plotters::style::RGBColor;
 
 use genga::error::{Cause, Error};
 use genga::motion::BodySide;
-use genga::sheet::{Number, Role};
+use genga::sheet::Role;
 
 /// Keys (原画).
 pub const GENGA: RGBColor = RGBColor(200, 50, 16);
@@ -54,8 +54,8 @@ pub(super) const MARGIN: f64 = 24.0;
 pub(super) const BADGE: f64 = 9.5;
 
 /// Returns half the width of the circle round a number, which is longer than high for more than two signs.
-pub(super) fn badge_reach(number: &Number) -> f64 {
-    BADGE.max(0.5 * text_width(&number.to_string(), BOLDER * SMALL) + 4.5)
+pub(super) fn badge_reach(number: &str) -> f64 {
+    BADGE.max(0.5 * text_width(number, BOLDER * SMALL) + 4.5)
 }
 
 /// Width of bold letters relative to that of plain ones.

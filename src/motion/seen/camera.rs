@@ -24,7 +24,8 @@ pub enum Camera {
     Side,
     /// 斜め: halfway between front and side.
     ThreeQuarter,
-    /// The side that shows most of the movement; the body travels to the right. The default.
+    /// The side that shows most of the movement; the body travels to the right, unless it then shows its back most of
+    /// the time. The default.
     #[default]
     Auto,
 }
@@ -49,17 +50,22 @@ impl Camera {
     /// Returns the view of some poses of a clip. Each pose lists the positions of its joints and then of its tips.
     pub fn view(self, clip: &Clip, poses: &[Vec<DVec3>]) -> View {
         let Build { members, stature, .. } = Build::new(clip);
-        let first = poses.first().map_or(&[][..], Vec::as_slice);
         let up = stature.up.unit();
-        let front = facing(&members, first, up);
+        let faces = Faces::new(&members, up);
+        let first = poses.first().map_or(&[][..], Vec::as_slice);
+        let usual = if up == DVec3::Z { DVec3::NEG_Y } else { DVec3::Z };
+        let front = faces.facing(first).unwrap_or(usual);
         // Seen from the body's own right, a body that faces away from us looks to the right.
         let side = front.cross(up);
         match self {
             Self::Front => View::from(up, front),
             Self::Side => View::from(up, side),
             Self::ThreeQuarter => View::from(up, (front + side).normalize()),
-            Self::Auto if members.are_all() => View::new(up, poses),
-            Self::Auto => View::new(up, &own(&members, clip.skeleton(), poses)),
+            Self::Auto if members.are_all() => faces.towards(View::new(up, poses), poses),
+            Self::Auto => {
+                let own = own(&members, clip.skeleton(), poses);
+                faces.towards(View::new(up, &own), poses)
+            }
         }
     }
 }
@@ -76,22 +82,48 @@ fn own(members: &Members, skeleton: &Skeleton, poses: &[Vec<DVec3>]) -> Vec<Vec<
     poses.iter().map(pose).collect()
 }
 
-/// Returns the direction that a body faces, level and of length 1.
-fn facing(members: &Members, pose: &[DVec3], up: DVec3) -> DVec3 {
-    let of = |side| {
-        let joints = members.skeleton().joints.iter().enumerate();
-        let own = joints.filter(|(joint, _)| members.has(*joint));
-        own.filter(move |(_, data)| BodySide::from_name(&data.name) == side).map(|(joint, _)| joint)
-    };
-    // Both sides list their joints in one order, hips or shoulders first. Some rigs begin with joints on the body's
-    // midline, which give no direction; these are skipped.
-    let across = of(BodySide::Left).zip(of(BodySide::Right)).find_map(|(left, right)| {
-        let across = *pose.get(left)? - *pose.get(right)?;
-        let level = across - up * across.dot(up);
-        (level.length() > 0.02 * members.extent(pose).length()).then_some(level)
-    });
-    let usual = if up == DVec3::Z { DVec3::NEG_Y } else { DVec3::Z };
-    across.map_or(usual, |left| left.cross(up).normalize_or(usual))
+/// Tells where a body faces, from the joints that are named left and right.
+struct Faces<'a> {
+    members: &'a Members,
+    /// A left joint and its right counterpart, hips or shoulders first.
+    pairs: Vec<[usize; 2]>,
+    up: DVec3,
+}
+
+impl<'a> Faces<'a> {
+    /// Share of a face's direction that points away from the viewer from which a body shows its back: 30° past profile.
+    const TURNED: f64 = 0.5;
+
+    fn new(members: &'a Members, up: DVec3) -> Self {
+        let of = |side| {
+            let joints = members.skeleton().joints.iter().enumerate();
+            let own = joints.filter(|(joint, _)| members.has(*joint));
+            own.filter(move |(_, data)| BodySide::from_name(&data.name) == side)
+                .map(|(joint, _)| joint)
+        };
+        // Both sides list their joints in one order.
+        let pairs = of(BodySide::Left).zip(of(BodySide::Right)).map(<[usize; 2]>::from).collect();
+        Self { members, pairs, up }
+    }
+
+    /// Returns the direction that the body faces in a pose, level and of length 1; `None` if the names tell no sides.
+    fn facing(&self, pose: &[DVec3]) -> Option<DVec3> {
+        // Some rigs begin with joints on the body's midline, which give no direction; these are skipped.
+        let least = 0.02 * self.members.extent(pose).length();
+        let across = self.pairs.iter().find_map(|[left, right]| {
+            let across = *pose.get(*left)? - *pose.get(*right)?;
+            let level = across - self.up * across.dot(self.up);
+            (level.length() > least).then_some(level)
+        })?;
+        across.cross(self.up).try_normalize()
+    }
+
+    /// Turns a view round if most poses show their back in it.
+    fn towards(&self, view: View, poses: &[Vec<DVec3>]) -> View {
+        let faces = poses.iter().filter_map(|pose| self.facing(pose));
+        let backs = faces.filter(|face| face.dot(view.near) < -Self::TURNED).count();
+        if 2 * backs > poses.len() { View::from(self.up, -view.near) } else { view }
+    }
 }
 
 impl Setting for Camera {
@@ -176,6 +208,35 @@ mod tests {
         let (clip, poses) = body(NAMELESS, DVec3::X, DVec3::Y, 0.0);
         assert_eq!(Camera::Front.view(&clip, &poses).near, DVec3::Z);
         assert_eq!(Camera::Front.view(&clip, &[]).near, DVec3::Z, "no pose at all");
+    }
+
+    #[test]
+    fn no_body_is_seen_from_behind_most_of_the_time() {
+        // It swings an arm across its front, and sways to the left or to the right.
+        for (names, sway, near) in [
+            (NAMES, 0.1, DVec3::Z),
+            (NAMES, -0.1, DVec3::Z),
+            (NAMES, 9.0, DVec3::Z),
+            (NAMES, -9.0, DVec3::Z),
+            (NAMELESS, -9.0, DVec3::NEG_Z),
+        ] {
+            let (clip, poses) = body(names, DVec3::X, 9.0 * DVec3::Y, 0.0);
+            let mut last = poses[0].clone();
+            last.iter_mut().for_each(|point| *point += sway * DVec3::X);
+            last[5] += DVec3::X;
+            let view = Camera::Auto.view(&clip, &[poses[0].clone(), last]);
+            assert!(view.near.abs_diff_eq(near, 1e-12), "{sway}: {view:?}");
+        }
+    }
+
+    #[test]
+    fn a_body_that_walks_ahead_goes_to_the_right() {
+        for way in [9.0, -9.0] {
+            let (clip, poses) = body(NAMES, DVec3::X, 9.0 * DVec3::Y, 0.0);
+            let gone = poses[0].iter().map(|point| *point + way * DVec3::Z).collect();
+            let view = Camera::Auto.view(&clip, &[poses[0].clone(), gone]);
+            assert!(view.right.abs_diff_eq(way.signum() * DVec3::Z, 1e-12), "{view:?}");
+        }
     }
 
     #[test]

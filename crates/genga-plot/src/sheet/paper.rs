@@ -66,7 +66,7 @@ pub(super) fn badges(layer: &Layer, in_line: usize, slot: f64) -> Vec<Badge> {
     // A gap at every line's end, since numbers on different lines are no neighbours.
     let gap = 4.0 * style::BADGE;
     let place = |koma: usize| koma as f64 * slot + (koma / in_line) as f64 * gap;
-    let mark = |badge: &Badge| (place(badge.koma), style::badge_reach(&badge.number));
+    let mark = |badge: &Badge| (place(badge.koma), style::badge_reach(&badge.number.to_string()));
     let lanes = style::lanes(badges.iter().map(mark).collect::<Vec<_>>(), LANES);
     for (badge, lane) in badges.iter_mut().zip(lanes) {
         badge.lane = lane;
@@ -234,7 +234,7 @@ impl Paper<'_> {
             let y = low - style::BADGE - 2.0 * style::BADGE * lane as f64;
             let colour = style::of_role(badge.role);
             canvas.line((x, y), (x, low + 2.0), colour, 1.0);
-            canvas.badge((x, y), &badge.number, colour, badge.pinned);
+            canvas.badge((x, y), &badge.number.to_string(), colour, badge.pinned);
         }
     }
 

@@ -5,7 +5,7 @@ use serde_json::Value;
 use super::flipbook::take;
 use super::*;
 use crate::canvas::Canvas;
-use crate::drawings::{ShownDrawing, shown_drawings};
+use crate::drawings::{ShownDrawing, Signs, composed, shown_drawings};
 use crate::points::Posing;
 use genga::sheet::Repeat;
 
@@ -235,6 +235,40 @@ fn numbers_are_those_of_the_key_table() {
         numbered(&cells),
         ["1 Some(1) 0", "2 None 1", "3 Some(2) 3", "4 None 6", "5 Some(3) 7"]
     );
+}
+
+#[test]
+fn a_drawing_of_several_columns_has_their_numbers() {
+    let (clip, mut sheet) = walk();
+    let mut arms = sheet.layers[0].clone();
+    arms.name = "B".into();
+    arms.joints = vec![clip.skeleton().joints[1].name.clone()];
+    // It begins with the first drawing, and goes on when A has drawn three.
+    arms.exposures = vec![Exposure { drawing: 0, koma: 6 }, Exposure { drawing: 4, koma: 2 }];
+    sheet.layers.push(arms);
+    let signs = Signs::new(&sheet);
+    let composite = composed(&clip, &sheet).unwrap();
+    let mut cells = shown_drawings(composite.layer());
+    signs.give(&mut cells);
+    let named = |cell: &ShownDrawing<'_>| {
+        format!("{} {} {:?}", cell.koma, cell.sign(), cell.genga_sign().as_deref())
+    };
+    assert_eq!(
+        cells.iter().map(named).collect::<Vec<_>>(),
+        [
+            "0 A1 B1 Some(\"A1 B1\")",
+            "1 A2 None",
+            "3 A3 Some(\"A2\")",
+            "6 A4 B5 Some(\"B3\")",
+            "7 A5 Some(\"A3\")",
+        ]
+    );
+    for (name, draw) in PAGES.into_iter().filter(|(name, _)| *name != "flip-book") {
+        let pages = draw("cut", &clip, &sheet).unwrap();
+        assert!(said(&pages).contains(&"B3".to_owned()), "{name}: {:?}", said(&pages));
+    }
+    let poses = PoseRow::default().draw_kept(&clip, &sheet).unwrap();
+    assert!(said(&[poses]).contains(&"A1 B1".to_owned()));
 }
 
 #[test]

@@ -126,8 +126,12 @@ fn all_of(breakdown: &Breakdown<'_>) -> Vec<(String, String)> {
 }
 
 fn check_all_of(clip: Clip) -> usize {
+    check_all_with(clip, &Recipe::default())
+}
+
+fn check_all_with(clip: Clip, recipe: &Recipe) -> usize {
     let mut engine = Engine::new(clip).unwrap();
-    let breakdown = engine.run(&Recipe::default(), &Edits::default()).unwrap();
+    let breakdown = engine.run(recipe, &Edits::default()).unwrap();
     let figures = all_of(&breakdown);
     figures.iter().for_each(|(name, svg)| check(name, svg));
     breakdown.sheet.layers[0].genga()
@@ -141,6 +145,13 @@ fn kick() -> Clip {
 #[test]
 fn the_letters_of_every_figure_can_be_read_in_print() {
     check_all_of(kick());
+}
+
+#[test]
+fn the_letters_of_several_columns_can_be_read_in_print() {
+    let mut recipe = Recipe::default();
+    recipe.set("layers", "limbs").unwrap();
+    check_all_with(kick(), &recipe);
 }
 
 #[test]
