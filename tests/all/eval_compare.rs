@@ -18,6 +18,7 @@ fn a_sheet_is_judged_by_its_source_and_by_keys() {
         assert!(page.contains(word), "no word of {word} in\n{page}");
     }
     assert!(!page.contains("precision"), "{page}");
+    assert_eq!(place.done("eval out --clip data/kick.bvh"), page, "a results folder is its sheet");
     let found = json(&place.done("eval out/sheet.json --clip data/kick.bvh --json -"));
     let pace = &found["pace"];
     let report = json(&fs::read_to_string(place.path("out/report.json")).unwrap());

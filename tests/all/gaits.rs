@@ -8,7 +8,7 @@ use genga::keys::{AtGaits, Choose, Origin, WalkStep};
 use genga::motion::{Clip, Gait, Step};
 use genga::pipeline::Engine;
 use genga::recipe::Recipe;
-use genga::sheet::{Exposure, Layer, Reason};
+use genga::sheet::{Exposure, Layer, Reason, Role};
 use genga::time::Frame;
 use genga_lab::study::Noise;
 
@@ -174,7 +174,9 @@ fn steps_as_long_as_each_other_have_the_same_exposures() {
                 for step in steps {
                     let now = (exposures(&layer, step), phases_shown(&layer, step));
                     assert_eq!(now.0.iter().sum::<usize>(), step.1 - step.0, "{name}: {step:?}");
-                    assert_eq!(now.1.len(), 4, "{name}: {step:?}");
+                    // The run passes too soon for a *down* before it.
+                    let phases = if name == "cmu-09_01-run" { 3 } else { 4 };
+                    assert_eq!(now.1.len(), phases, "{name}: {step:?}");
                     assert!(now.0.iter().all(|koma| *koma >= 2), "{name}: {step:?} {now:?}");
                     let like = of_length.entry(step.1 - step.0).or_insert_with(|| now.clone());
                     assert_eq!(*like, now, "{name}: {step:?}");
@@ -185,6 +187,23 @@ fn steps_as_long_as_each_other_have_the_same_exposures() {
                     assert_eq!(apart.filter(|koma| *koma > 0).count(), 1, "{name}: {pair:?}");
                 }
             }
+        }
+    });
+}
+
+#[test]
+fn a_run_shows_its_phases_when_they_are() {
+    clips::with(["cmu-09_01-run"], |[path]| {
+        let clip = clips::read(&path);
+        let mut engine = Engine::new(clip).unwrap();
+        let sheet = engine.run(&Recipe::default(), &Edits::default()).unwrap().sheet.clone();
+        let layer = &sheet.layers[0];
+        for (koma, shown) in layer.timed() {
+            let drawing = &layer.drawings[shown.drawing];
+            let place = drawing.source.place() - sheet.clock.place_from_koma(0);
+            let late = koma as f64 - place / sheet.clock.frames_in_koma();
+            let is_phase = drawing.role == Role::Genga;
+            assert!(!is_phase || late.abs() <= 1.25, "koma {}: {late} koma late", koma + 1);
         }
     });
 }

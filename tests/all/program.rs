@@ -1471,10 +1471,15 @@ fn what_the_system_refuses_is_said_in_words_with_a_way_out() {
         let said = place.refused(1, args);
         assert_eq!(said, format!("genga: none: {missing}\n"), "{args}");
     }
+    let said = place.refused(2, "run data/kick.bvh --recipe data/kick.bvh");
+    assert!(said.contains("data/kick.bvh: is a motion and no recipe"), "{said}");
+    let said = place.refused(2, "eval folder --clip data/kick.bvh");
+    assert!(said.contains("folder: there is no sheet.json in this folder"), "{said}");
+    let said = place.refused(2, "run data/kick.bvh --naka-nashi 4");
+    assert!(said.contains("it is a setting: --set omission.naka_nashi=VALUE"), "{said}");
     let (folder, file) = ("is a folder; name a file", "is a file; name a folder");
     for (args, says) in [
         ("run data/kick.bvh --recipe folder", format!("folder: {folder}")),
-        ("eval folder --clip data/kick.bvh", format!("folder: {folder}")),
         ("omit data/kick.bvh --out folder", format!("folder: {folder}")),
         (
             "omit data/kick.bvh --out none/a.bvh",

@@ -6,6 +6,8 @@ use clap::builder::StyledStr;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{CommandFactory, Parser};
 
+use genga::recipe::KNOBS;
+
 use super::commands::Args;
 use super::paths::{first_clip, is_motion};
 use super::shell::quoted;
@@ -39,10 +41,17 @@ fn tip(error: &clap::Error) -> Option<String> {
         }
         ErrorKind::UnknownArgument => {
             let word = word(ContextKind::InvalidArg)?;
-            Path::new(word).exists().then(|| many(word))
+            if Path::new(word).exists() { Some(many(word)) } else { setting_like(word) }
         }
         _ => None,
     }
+}
+
+/// Suggests `--set` if an option has the last part of a setting's name, as `--naka-nashi`.
+fn setting_like(option: &str) -> Option<String> {
+    let last = option.strip_prefix("--")?.replace('-', "_");
+    let knob = KNOBS.iter().find(|knob| knob.path().1 == last)?;
+    Some(format!("it is a setting: --set {}=VALUE", knob.name))
 }
 
 /// Suggests the `batch` command if several clips are given where one is expected.

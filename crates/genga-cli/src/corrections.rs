@@ -143,6 +143,12 @@ impl Settings {
     pub(super) fn read(&self, default: Recipe) -> Result<(Recipe, Edits), Failure> {
         let (mut recipe, edits) = match &self.recipe {
             None => (default, Edits::default()),
+            Some(path) if paths::is_motion(path) => {
+                return Err(Failure::AskedWrongly(format!(
+                    "{}: is a motion and no recipe, which is TOML as `genga recipe` prints it",
+                    path.display()
+                )));
+            }
             Some(path) => {
                 let text = String::from_utf8(files::read(path)?).map_err(|_| {
                     Failure::AskedWrongly(format!("{}: is not text", path.display()))

@@ -8,21 +8,21 @@ use super::study::tolerance;
 use crate::clip::Reading;
 use crate::console::{Table, Words, counted, two};
 use crate::failure::Failure;
-use crate::{files, paths};
+use crate::{files, paths, sheets};
 use genga::time::Frame;
 use genga_files::{reference_keys, sheet_json};
 use genga_lab::quality::{Evaluation, Off, Slip, Timing};
 
-#[derive(Debug, Args)]
+#[derive(Debug, Clone, Args)]
 #[command(after_help = HELP)]
 pub(super) struct EvalArgs {
-    /// The sheet, a sheet.json; - is stdin.
-    #[arg(value_name = "SHEET.json")]
+    /// The sheet: a sheet.json, or a results folder with one; - is stdin.
+    #[arg(value_name = "SHEET")]
     sheet: PathBuf,
     /// The motion that the sheet was made of, the whole file.
     #[arg(long, short, value_name = "CLIP")]
     clip: PathBuf,
-    /// Reference keys to judge the genga by: a sheet.json, a table of `genga keys`, a CSV with a column frame, a list
+    /// Reference keys to judge the genga by: a sheet.json or its folder, a table of `genga keys`, a CSV with a column frame, a list
     /// of source frames, one per line, or the keyed frames of an MMD motion (.vmd).
     #[arg(long, value_name = "KEYS")]
     reference: Option<PathBuf>,
@@ -52,10 +52,13 @@ Measures:
   ends are always drawn. A reference key that is given twice counts once.
 
 Examples:
-  genga run kick.bvh && genga eval kick-genga/sheet.json --clip kick.bvh
+  genga run kick.bvh && genga eval kick-genga --clip kick.bvh
   genga eval kick-genga/sheet.json --clip kick.bvh --reference by-hand.csv --json -";
 
 pub(super) fn run(args: &EvalArgs, words: &Words) -> Result<(), Failure> {
+    let sheet = sheets::file_of(&args.sheet)?;
+    let reference = args.reference.as_deref().map(sheets::file_of).transpose()?;
+    let args = &EvalArgs { sheet, reference, ..args.clone() };
     check_files(args)?;
     let of_sheet = files::fault_of(&args.sheet);
     let file = sheet_json::read(&files::read(&args.sheet)?).map_err(&of_sheet)?;
