@@ -146,10 +146,12 @@ impl Signs {
         }
         let mut drawn: BTreeMap<usize, [Vec<String>; 2]> = BTreeMap::new();
         for column in columns {
+            let between =
+                if column.name.ends_with(|last: char| last.is_numeric()) { "-" } else { "" };
             let (numbers, genga) = (column.numbers(), column.genga_numbers());
             for (koma, Exposure { drawing, .. }) in column.timed() {
                 let [all, kept] = drawn.entry(koma).or_default();
-                let named = |number: &Number| format!("{}{number}", column.name);
+                let named = |number: &Number| format!("{}{between}{number}", column.name);
                 all.push(named(&numbers[drawing]));
                 kept.extend(genga[drawing].as_ref().map(named));
             }
@@ -161,10 +163,22 @@ impl Signs {
         Self(drawn.into_iter().map(|(koma, names)| (koma, sign(names))).collect())
     }
 
+    /// Whether the sheet has one column, whose drawings need no sign.
+    pub(super) fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
     /// Gives the drawings of the composite their signs.
     pub(super) fn give<'a>(&'a self, cells: &mut [ShownDrawing<'a>]) {
         cells.iter_mut().for_each(|cell| cell.sign = self.0.get(&cell.koma));
     }
+}
+
+/// Counts the genga and the drawings of all columns of a sheet.
+pub(super) fn counts(sheet: &Sheet) -> [usize; 2] {
+    let columns = columns(sheet);
+    let genga = columns.iter().map(|column| column.genga()).sum();
+    [genga, columns.iter().map(|column| column.shown().count()).sum()]
 }
 
 /// Returns the columns of a sheet that pose joints.

@@ -83,7 +83,10 @@ struct PageSheet<'a> {
     /// Its name, if there are two.
     #[serde(skip_serializing_if = "Option::is_none")]
     name: Option<&'a str>,
+    /// Name of its column; empty for several, whose drawings have a sign.
     column: &'a str,
+    /// Genga and drawings of all its columns.
+    counts: [usize; 2],
     /// Number of koma of its own cut; after them it holds what stands there.
     koma: usize,
     /// How often the exposures of a loop come again.
@@ -98,10 +101,10 @@ struct PageSheet<'a> {
 
 #[derive(Serialize)]
 struct PageDrawing {
-    /// Number in the CELL column, 3 or "3a".
-    number: Number,
+    /// Number in the CELL column, 3 or "3a", or the sign of a composite.
+    number: Called,
     role: &'static str,
-    genga: Option<Number>,
+    genga: Option<Called>,
     /// Place in the source, to a tenth of a frame.
     frame: f64,
     pinned: bool,
@@ -109,6 +112,14 @@ struct PageDrawing {
     why_japanese: String,
     omitted: usize,
     pose: Vec<i32>,
+}
+
+/// What a drawing is called.
+#[derive(Clone, Serialize)]
+#[serde(untagged)]
+enum Called {
+    Number(Number),
+    Sign(String),
 }
 
 knobs!(flipbook::FlipBook { camera: shared::CAMERA, most: shared::MOST, ..body });
@@ -199,15 +210,25 @@ impl<'a> PageSheet<'a> {
         let (composite, marks) = (&reel.composite, figure.marks());
         let poses = drawn_poses(composite, marks, layer.drawings.len());
         let sliding = sliding_poses(composite, marks, layer.length());
-        let cells = shown_as(layer, reel.named);
+        let mut cells = shown_as(layer, reel.named);
+        reel.signs.give(&mut cells);
         // A drawing that is never shown keeps its own numbers.
-        let mut numbers: Vec<_> = layer.numbers().into_iter().zip(layer.genga_numbers()).collect();
-        cells.iter().for_each(|cell| numbers[cell.index] = (cell.number(), cell.genga_number()));
+        let own = layer.numbers().into_iter().zip(layer.genga_numbers());
+        let mut called: Vec<_> = own
+            .map(|(number, genga)| (Called::Number(number), genga.map(Called::Number)))
+            .collect();
+        for cell in &cells {
+            called[cell.index] = match cell.is_composite() {
+                true => (Called::Sign(cell.sign()), cell.genga_sign().map(Called::Sign)),
+                false => (Called::Number(cell.number()), cell.genga_number().map(Called::Number)),
+            };
+        }
         let before = reel.sheet.blank.before;
-        let drawings = layer.drawings.iter().zip(&poses).zip(numbers);
+        let drawings = layer.drawings.iter().zip(&poses).zip(called);
         Self {
             name,
-            column: &layer.name,
+            counts: reel.counts,
+            column: if reel.signs.is_empty() { &layer.name } else { "" },
             koma: reel.length(),
             rounds: reel.rounds,
             cells: cells.iter().map(|cell| [cell.index, before + cell.koma, cell.held]).collect(),

@@ -1,7 +1,7 @@
 //! Draws the head that all pages of figures share: the title, the counts of the cut, the legend.
 
 use crate::canvas::{Align, Canvas, Type};
-use crate::drawings::{columns, seconds_and_koma};
+use crate::drawings::{columns, counts, seconds_and_koma};
 use crate::legend::{self, Entry};
 use crate::style;
 use genga::sheet::{Blank, Layer, Sheet};
@@ -50,11 +50,9 @@ impl Head<'_> {
 pub(super) fn facts(sheet: &Sheet, layer: &Layer) -> String {
     let koma = layer.length();
     let length = seconds_and_koma(koma, sheet.clock.koma_rate);
-    let columns = columns(sheet);
-    let genga: usize = columns.iter().map(|column| column.genga()).sum();
-    let drawings: usize = columns.iter().map(|column| column.shown().count()).sum();
+    let [genga, drawings] = counts(sheet);
     let plural = if drawings == 1 { "" } else { "s" };
-    let of = match columns.len() {
+    let of = match columns(sheet).len() {
         1 => String::new(),
         count => format!(" · {count} columns セル"),
     };

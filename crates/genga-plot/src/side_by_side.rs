@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use glam::DVec3;
 
-use crate::drawings::composed;
+use crate::drawings::{Signs, composed, counts};
 use crate::figure::{Figure, FigureBody};
 use crate::points::Showing;
 use genga::error::Error;
@@ -166,6 +166,10 @@ pub(crate) struct PlayedOut<'a> {
     sheet: Cow<'a, Sheet>,
     /// Layer of the sheet as it was given. Its drawings have the numbers that people know.
     named: Layer,
+    /// The signs of its drawings, if it is composited from several columns.
+    signs: Signs,
+    /// Genga and drawings of all its columns.
+    counts: [usize; 2],
     /// Number of rounds.
     rounds: usize,
 }
@@ -177,8 +181,9 @@ impl<'a> PlayedOut<'a> {
     /// As [`composed`].
     pub(crate) fn new(clip: &'a Clip, sheet: &'a Sheet) -> Result<Self, Error> {
         let (named, rounds) = (composed(clip, sheet)?.layer().clone(), sheet.rounds());
+        let (signs, counts) = (Signs::new(sheet), counts(sheet));
         let (clip, sheet) = played_out(clip, sheet);
-        Ok(Self { clip, sheet, named, rounds })
+        Ok(Self { clip, sheet, named, signs, counts, rounds })
     }
 
     /// Leaves out the blank koma.
@@ -197,8 +202,9 @@ impl<'a> PlayedOut<'a> {
     pub(crate) fn reel(&self) -> Result<Reel<'_>, Error> {
         let composite = composed(&self.clip, &self.sheet)?;
         let shown = composite.layer().koma().collect();
-        let (named, rounds) = (&self.named, self.rounds);
-        Ok(Reel { composite, sheet: &self.sheet, named, rounds, shown })
+        let Self { named, signs, counts, rounds, .. } = self;
+        let (counts, rounds) = (*counts, *rounds);
+        Ok(Reel { composite, sheet: &self.sheet, named, signs, counts, rounds, shown })
     }
 }
 
@@ -208,6 +214,10 @@ pub(crate) struct Reel<'a> {
     pub(crate) sheet: &'a Sheet,
     /// Layer whose drawings have the numbers that people know.
     pub(crate) named: &'a Layer,
+    /// The signs of its drawings, if it is composited from several columns.
+    pub(crate) signs: &'a Signs,
+    /// Genga and drawings of all its columns.
+    pub(crate) counts: [usize; 2],
     /// Number of rounds of a loop.
     pub(crate) rounds: usize,
     /// Drawing of each koma that has one.

@@ -73,10 +73,10 @@ function sayDrawing(reel, place) {
     return word("blank");
   }
   const [, begin, held] = reel.cells[reel.cell(state.koma)];
-  const role = drawing.genga ? `${word(drawing.role)} ${drawing.genga}` : word(drawing.role);
+  const role = drawing.genga && reel.column ? `${word(drawing.role)} ${drawing.genga}` : word(drawing.role);
   place.drawing.textContent = `${reel.column}${drawing.number}`;
   place.role.textContent = role;
-  place.number.className = `number ${drawing.role}`;
+  place.number.className = `number ${drawing.role} ${reel.column ? "" : "sign"}`;
   place.held.textContent = `${Math.min(state.koma - begin + 1, held)} / ${held}`;
   place.frame.textContent = drawing.frame;
   place.why.textContent = place.why.title = state.language === "en" ? drawing.why : drawing.why_japanese;
@@ -128,10 +128,7 @@ function label() {
 // The length, the rounds, genga and drawings of each sheet, and on how many koma two sheets differ.
 function facts() {
   const of = (reel) => {
-    // A drawing that comes again in the next round of a loop is the same sheet of paper.
-    const shown = new Map(reel.cells.map(([drawing]) => [reel.drawings[drawing].number, reel.drawings[drawing]]));
-    const genga = [...shown.values()].filter((drawing) => drawing.genga).length;
-    return [reel.name, word("counts")(reel.rounds, genga, shown.size)].filter((part) => part).join(": ");
+    return [reel.name, word("counts")(reel.rounds, ...reel.counts)].filter((part) => part).join(": ");
   };
   const differ = (take.differences ?? []).reduce((sum, [, koma]) => sum + koma, 0);
   const more = areTwo ? [word("differ")(differ)] : [];

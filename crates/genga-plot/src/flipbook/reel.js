@@ -1,8 +1,8 @@
 // A sheet as it runs on screen: which drawing stands on which koma, and in which pose.
 class Reel {
   // `length` is the number of koma of the film.
-  constructor({ name, column, koma, rounds, cells, drawings, sliding }, length) {
-    Object.assign(this, { name, column, rounds, cells, drawings, sliding });
+  constructor({ name, column, counts, koma, rounds, cells, drawings, sliding }, length) {
+    Object.assign(this, { name, column, counts, rounds, cells, drawings, sliding });
     const own = [];
     cells.forEach(([, begin, held], cell) => { for (let at = begin; at < begin + held; at++) own[at] = cell; });
     // After its end it holds what stands there last. Blank koma have no cell.

@@ -50,7 +50,8 @@ function drawColumns(canvas, take, reels, koma, colors, names) {
   ctx.textAlign = "center";
   ctx.font = "11px sans-serif";
   ctx.fillStyle = colors.faint;
-  for (const sheet of columns.sheets) sheet.forEach((x, at) => ctx.fillText(names[at], x * width, 0.45 * NAMES));
+  const places = reels.map((reel, of) => placesOf(reel, of, columns).map((x) => x * width));
+  for (const sheet of places) sheet.forEach((x, at) => ctx.fillText(names[at], x, 0.45 * NAMES));
   for (let at = first; at < take.koma && NAMES + (at - first) * ROW < height; at++) {
     const y = NAMES + (at - first) * ROW;
     if (at === koma) {
@@ -72,8 +73,13 @@ function drawColumns(canvas, take, reels, koma, colors, names) {
       ctx.textAlign = "center";
       ctx.fillText("≠", columns.unlike * width, y + 0.55 * ROW);
     }
-    reels.forEach((reel, of) => drawCells(ctx, reel, at, [columns.sheets[of].map((x) => x * width), y], colors));
+    reels.forEach((reel, of) => drawCells(ctx, reel, at, [places[of], y], colors));
   }
+}
+
+// Signs are wider than numbers.
+function placesOf(reel, of, columns) {
+  return !reel.column && columns.sheets.length === 1 ? [0.44, 0.81] : columns.sheets[of];
 }
 
 function isDifferent(take, koma) {
@@ -96,6 +102,10 @@ function drawCells(ctx, reel, koma, [[action, cell], y], colors) {
 // As the sheet's ACTION column has it: the genga's number in a circle, or the dot of an inbetween.
 function drawGenga(ctx, drawing, [x, y], colors) {
   const color = roleColor(drawing.role, colors);
+  if (isSign(drawing.genga)) {
+    drawSign(ctx, drawing.genga, [x, y], color);
+    return;
+  }
   ctx.beginPath();
   ctx.arc(x, y, drawing.genga ? 0.46 * ROW : 2, 0, 2 * Math.PI);
   ctx.strokeStyle = ctx.fillStyle = drawing.genga ? color : colors.ink;
@@ -111,6 +121,10 @@ function drawGenga(ctx, drawing, [x, y], colors) {
 
 // As the sheet's CELL column has it: the drawing's number, and how many were left out before it.
 function drawNumber(ctx, drawing, [x, y], colors) {
+  if (isSign(drawing.number)) {
+    drawSign(ctx, drawing.number, [x, y], colors.ink);
+    return;
+  }
   ctx.textAlign = "center";
   ctx.font = drawing.genga ? "bold 12px sans-serif" : "12px sans-serif";
   ctx.fillStyle = colors.ink;
@@ -120,6 +134,18 @@ function drawNumber(ctx, drawing, [x, y], colors) {
     ctx.font = "11px sans-serif";
     ctx.fillText(`×${drawing.omitted}`, x + 1.4 * ROW, y + 1);
   }
+}
+
+// Whether a drawing of several columns is called by theirs, as "A2 C5", for which a circle has no room.
+function isSign(called) {
+  return called !== null && !/^\d+[a-z]*$/.test(called);
+}
+
+function drawSign(ctx, sign, [x, y], color) {
+  ctx.textAlign = "center";
+  ctx.font = "bold 9px sans-serif";
+  ctx.fillStyle = color;
+  ctx.fillText(sign, x, y + 1);
 }
 
 function drawHold(ctx, [x, y], ends, colors) {

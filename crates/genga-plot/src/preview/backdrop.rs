@@ -109,7 +109,9 @@ impl Backdrop<'_> {
         let along = "camera goes along";
         let number = |canvas: &mut Canvas, panel: usize| {
             let right = self.number_end(panel) - 46.0;
-            canvas.text(NUMBER, (right, 27.0), faint.align(Align::Right));
+            if self.reels[panel + self.reels.len() - 2].signs.is_empty() {
+                canvas.text(NUMBER, (right, 27.0), faint.align(Align::Right));
+            }
         };
         match self.shown {
             SideBySide::Source(..) => {

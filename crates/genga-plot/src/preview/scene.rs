@@ -54,7 +54,7 @@ pub(super) struct Moment {
 /// What a panel shows on a koma.
 struct Shown {
     pose: Vec<DVec3>,
-    /// Number under which the drawing is known, and whether it is a key; `None` for the source.
+    /// Number under which the drawing is known, and whether it is a key; `None` for the source and several columns.
     drawing: Option<(Number, bool)>,
 }
 
@@ -65,7 +65,7 @@ pub(super) struct Cast<'a> {
     reels: &'a [Reel<'a>],
     /// Poses of each reel.
     showing: Vec<Showing<'a>>,
-    /// Number of the drawing on each koma of each reel.
+    /// Number of the drawing on each koma of each reel; none for several columns, which have numbers of their own.
     numbers: Vec<Vec<Number>>,
 }
 
@@ -76,6 +76,9 @@ impl<'a> Cast<'a> {
         let source = matches!(shown, SideBySide::Source(..))
             .then(|| Posing::new(reels[0].composite.clip(), marks));
         let numbers = |reel: &Reel<'_>| {
+            if !reel.signs.is_empty() {
+                return Vec::new();
+            }
             let numbers = reel.named.numbers();
             reel.named.koma().map(|drawing| numbers[drawing].clone()).collect()
         };
@@ -98,7 +101,8 @@ impl<'a> Cast<'a> {
             }
             let pose = self.showing[at].points(on_screen.drawing, on_screen.koma);
             let is_kept = reel.composite.layer().drawings[on_screen.drawing].role.is_kept();
-            let drawing = Some((self.numbers[at][on_screen.koma].clone(), is_kept));
+            let number = self.numbers[at].get(on_screen.koma);
+            let drawing = number.map(|number| (number.clone(), is_kept));
             // A sheet alone stands in the second panel, beside its source.
             panels[at + 2 - self.reels.len()] = Some(Shown { pose, drawing });
         }

@@ -269,6 +269,13 @@ fn a_drawing_of_several_columns_has_their_numbers() {
     }
     let poses = PoseRow::default().draw_kept(&clip, &sheet).unwrap();
     assert!(said(&[poses]).contains(&"A1 B1".to_owned()));
+    let page = FlipBook::default().draw("cut", &SideBySide::Source(&clip, &sheet)).unwrap();
+    let shown = &take(&page)["sheets"][0];
+    assert_eq!(shown["counts"], serde_json::json!([5, 7]), "of both columns");
+    assert_eq!(
+        (&shown["column"], &shown["drawings"][3]["number"], &shown["drawings"][3]["genga"]),
+        (&"".into(), &"A4 B5".into(), &"B3".into())
+    );
 }
 
 #[test]
