@@ -7,7 +7,8 @@ use crate::error::Error;
 use crate::keys::AtGaits;
 use crate::recipe::Recipe;
 
-/// Meets a target. If gaits prevent that, tries without them and takes whichever result comes nearer.
+/// Meets a target. If gaits prevent that, tries without them and takes whichever result comes nearer. Of a largest error
+/// that both meet, it takes the one with fewer keys.
 pub(super) fn meet<C: Counter>(
     counter: &mut C,
     recipe: &Recipe,
@@ -24,12 +25,17 @@ pub(super) fn meet<C: Counter>(
         }
         Target::Keys(_) | Target::MaxError(_) => 0.0,
     };
-    if excess(&met.1) <= near || counter.gaits(&met.0, edits)? == 0 {
+    let asks_for_few = matches!(met.1.target, Target::MaxError(_));
+    if excess(&met.1) <= near && !asks_for_few || counter.gaits(&met.0, edits)? == 0 {
         return Ok(met);
     }
     let mut free = recipe.clone();
     free.keys.gaits = AtGaits::Off;
     let other = meet(counter, &free)?;
+    if asks_for_few && excess(&met.1) <= near && excess(&other.1) <= near {
+        let [own, without] = [&met.0, &other.0].map(|recipe| counter.genga(recipe, edits));
+        return Ok(if without? < own? { other } else { met });
+    }
     Ok(if excess(&other.1) < excess(&met.1) { other } else { met })
 }
 

@@ -338,6 +338,18 @@ fn gaits_give_way_to_a_number_of_genga_that_they_do_not_have() {
     assert!(all >= 8.0, "{all}");
 }
 
+#[test]
+fn gaits_give_way_to_a_largest_error_that_fewer_keys_meet() {
+    let mut engine = Engine::new(walking::clip()).unwrap();
+    let edits = Edits::default();
+    let met = meet(&mut engine, &Recipe::default(), &edits, &[Target::MaxError(20.0)]).unwrap();
+    assert!(met.outcomes[0].reached <= 20.0 && met.recipe.keys.gaits == AtGaits::Off);
+    let mut stepping = met.recipe.clone();
+    stepping.keys.gaits = AtGaits::Steps;
+    let mut count = |recipe| engine.find_keys(recipe, &edits).unwrap().keys.keys.len();
+    assert!(count(&met.recipe) < count(&stepping));
+}
+
 proptest! {
     #![proptest_config(cases(1, 24))]
 

@@ -21,11 +21,20 @@ fn corrections_of_a_folder_add_up_until_a_fresh_run() {
     // A later correction wins, and what it replaces is named.
     let third = place.said("run data/kick.bvh --forbid 40..44 --out a");
     assert!(third.contains("(--fresh goes without): forbid 50, hold 60:6\n"), "{third}");
-    assert!(third.contains("replaced or not of this clip any more: pin 42\n"), "{third}");
-    let part = place.said("run data/kick.bvh --trim 0..55 --out a");
-    assert!(part.contains("not of this clip any more: hold 60:6\n"), "{part}");
+    assert!(third.contains("of a/recipe.toml, replaced: pin 42\n"), "{third}");
+    // None is lost where a run has no place for it.
+    let part = place.refused(2, "run data/kick.bvh --trim 0..55 --out a");
+    assert!(part.contains("would lose them: hold 60:6; --trim and --layers as before"), "{part}");
+    // Settings alone leave them.
+    fs::write(place.path("house.toml"), place.done("recipe")).unwrap();
+    let house = place.said("run data/kick.bvh --recipe house.toml --out a");
+    assert!(
+        house.contains("(--fresh goes without): forbid 50, forbid 40..44, hold 60:6\n"),
+        "{house}"
+    );
     // A recipe that is named has the corrections that count.
-    place.done("run data/kick.bvh --recipe at-once/recipe.toml --renumber --out a");
+    let named = place.said("run data/kick.bvh --recipe at-once/recipe.toml --renumber --out a");
+    assert!(named.contains("without these of a/recipe.toml: forbid 40..44\n"), "{named}");
     place.done("run data/kick.bvh --recipe at-once/recipe.toml --out a");
     assert_eq!(all(&place.path("a")), all(&place.path("at-once")));
     let fresh = place.said("run data/kick.bvh --fresh --out a");
@@ -39,7 +48,7 @@ fn a_later_move_to_a_frame_replaces_an_earlier_one() {
     let place = Place::new();
     place.done("run data/kick.bvh --move 73:75 --out a");
     let said = place.said("run data/kick.bvh --move 71:75 --out a");
-    assert!(said.contains("replaced or not of this clip any more: move 73:75\n"), "{said}");
+    assert!(said.contains("of a/recipe.toml, replaced: move 73:75\n"), "{said}");
     assert!(said.contains("move 71:75: genga 12"), "{said}");
     let said = place.said("run data/kick.bvh --recipe a/recipe.toml --move 73:75 --out b");
     assert!(said.contains("no key is found at frame 73"), "{said}");
@@ -152,11 +161,11 @@ fn a_number_of_genga_overrules_kept_switches_that_leave_none_to_find() {
     assert!(first.contains("pin 42, pin 60, only-pins\n"), "{first}");
     assert!(first.contains("genga       原画       5, first"), "{first}");
     let asked = place.said("run data/kick.bvh --keys 9 --out a");
-    assert!(asked.contains("any more: only-pins\n"), "{asked}");
+    assert!(asked.contains("replaced: only-pins\n"), "{asked}");
     assert!(asked.contains("genga       原画       9, first"), "{asked}");
     place.done("run data/kick.bvh --freeze a --out a");
     let frozen = place.said("run data/kick.bvh --again --out a");
-    assert!(frozen.contains("any more: freeze\n"), "{frozen}");
+    assert!(frozen.contains("replaced: freeze\n"), "{frozen}");
 }
 
 #[test]

@@ -160,7 +160,9 @@ fn each_layer_is_a_column_of_every_table_and_sheet() {
     assert_eq!(report["layers"].as_array().unwrap().len(), 5);
     assert!(read("kick_douga_ts.xdts").contains(r#""names":["A","B","C","D","E"]"#));
     assert!(read("sheet.json").contains("\n  \"root\": \"ones\",\n"));
+    // What all columns draw together is known by its koma: some are held.
     assert!(place.path("a/images/A-E_0001.png").is_file());
+    assert!(!place.path("a/images/A-E_0002.png").is_file());
     let again = place.genga("deliver a/sheet.json data/kick.bvh --to bvh,glb,vmd,poses --out b");
     assert!(again.status.success(), "{}", text(&again.stderr));
     for file in ["limited.bvh", "limited.glb", "kick.vmd", "poses.svg"] {
@@ -169,6 +171,20 @@ fn each_layer_is_a_column_of_every_table_and_sheet() {
     }
     let eval = place.genga("eval a/sheet.json --clip data/kick.bvh");
     assert!(text(&eval.stderr).contains("of several layers"), "{}", text(&eval.stderr));
+}
+
+#[test]
+fn drawings_are_counted_as_they_stand_on_the_sheet_also_where_one_is_held_by_hand() {
+    let place = Place::new();
+    place.done("run data/kick.bvh --out a --layers limbs --hold 30:6");
+    let drawings = fs::read_to_string(place.path("a/drawings.csv")).unwrap();
+    let columns = column(&drawings, "column");
+    let report = fs::read_to_string(place.path("a/report.json")).unwrap();
+    let report: serde_json::Value = serde_json::from_str(&report).unwrap();
+    for layer in report["layers"].as_array().unwrap() {
+        let rows = columns.iter().filter(|own| layer["name"] == **own).count();
+        assert_eq!(layer["drawings"], rows, "{layer}");
+    }
 }
 
 #[test]

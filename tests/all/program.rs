@@ -1471,6 +1471,16 @@ fn what_the_system_refuses_is_said_in_words_with_a_way_out() {
         let said = place.refused(1, args);
         assert_eq!(said, format!("genga: none: {missing}\n"), "{args}");
     }
+    fs::write(place.path("house.toml"), place.done("recipe")).unwrap();
+    for (what, args) in [
+        ("recipe", "keys data/kick.bvh --recipe house.toml --out house.toml"),
+        ("recipe", "study data/kick.bvh --recipe house.toml --out house.toml"),
+        ("recipe", "compare data/kick.bvh --recipe house.toml --out house.toml"),
+        ("file of layers", "keys data/kick.bvh --layers house.toml --out house.toml"),
+    ] {
+        let said = place.refused(2, args);
+        assert!(said.contains(&format!("this is the {what} itself")), "{args}: {said}");
+    }
     let said = place.refused(2, "run data/kick.bvh --recipe data/kick.bvh");
     assert!(said.contains("data/kick.bvh: is a motion and no recipe"), "{said}");
     let said = place.refused(2, "eval folder --clip data/kick.bvh");

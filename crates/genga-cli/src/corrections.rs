@@ -8,7 +8,7 @@ use super::camera_args::SeenArgs;
 use super::cut_args::CutArgs;
 use super::failure::Failure;
 use super::headings::{CORRECTIONS, SHEET};
-use super::{files, paths};
+use super::{camera_args, files, paths};
 use genga::edits::{Edits, Forbidden, Hold, Move, Pin, Speech, layer_of};
 use genga::error::Error;
 use genga::recipe::Recipe;
@@ -180,9 +180,23 @@ fn of_a_format(name: &str, value: &str, error: Error) -> Failure {
 }
 
 impl Corrections {
-    /// Reads the recipe and its corrections, with those of the command line on top.
-    pub(super) fn read(&self) -> Result<(Recipe, Edits), Failure> {
-        let (mut recipe, mut edits) = self.settings.read(Recipe::default())?;
+    /// The files that are read for them, which no output may replace.
+    pub(super) fn sources(&self) -> [(&'static str, Option<&Path>); 5] {
+        let layers = self.layers.layers.as_deref().map(Path::new);
+        [
+            ("recipe", self.settings.recipe.as_deref()),
+            ("file of layers", layers.filter(|file| file.is_file())),
+            ("camera", camera_args::file(&self.seen)),
+            ("file with your keys", self.pin_from.as_deref()),
+            ("frozen sheet", self.freeze.as_deref()),
+        ]
+    }
+
+    /// Puts those of the command line on top of a recipe and its corrections.
+    pub(super) fn put_over(
+        &self,
+        (mut recipe, mut edits): (Recipe, Edits),
+    ) -> Result<(Recipe, Edits), Failure> {
         self.layers.put(&mut recipe)?;
         // A file of layers may have settings of its own, and those of the command line go over them.
         self.settings.set_layers(&mut recipe)?;

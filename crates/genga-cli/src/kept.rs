@@ -1,5 +1,5 @@
-//! Corrections that stay from run to run (前の修正): those in the recipe of the results folder, unless `--fresh`. Settings
-//! do not stay: a run without any is the default one.
+//! Corrections that stay from run to run (前の修正): those in the recipe of the results folder, unless `--fresh` or a
+//! recipe with others. Settings do not stay: a run without any is the default one.
 
 use std::path::Path;
 
@@ -28,14 +28,23 @@ pub(super) fn keep(
                 "{failure}; its corrections cannot be kept: --fresh goes without"
             ))
         })?;
-    let listed = list(&before);
-    plan.edits = plan.over(usable(before, &plan.recipe, engine)?);
+    let (listed, from) = (list(&before), path.display());
+    let usable = usable(before, &plan.recipe, engine)?;
+    let has_place = list(&usable);
+    let lost: Vec<String> = listed.iter().filter(|one| !has_place.contains(one)).cloned().collect();
+    if !lost.is_empty() {
+        return Err(Failure::AskedWrongly(format!(
+            "{from} has corrections of frames or layers that this run does not have, and would lose them: {}; --trim and \
+             --layers as before keep them, --out gives this run a folder of its own, --fresh goes without",
+            shortened_list(lost)
+        )));
+    }
+    plan.edits = plan.over(usable);
     let now = list(&plan.edits);
     let (stay, gone): (Vec<_>, Vec<_>) = listed.into_iter().partition(|one| now.contains(one));
-    let from = path.display();
     let said = [
         (stay, format!("kept from {from} (--fresh goes without)")),
-        (gone, format!("of {from}, replaced or not of this clip any more")),
+        (gone, format!("of {from}, replaced")),
     ];
     let said = said.into_iter().filter(|(which, _)| !which.is_empty());
     let mut said: Vec<_> =
@@ -47,6 +56,26 @@ pub(super) fn keep(
         said.push(format!("{way_out} {}", lost.join(" ")));
     }
     Ok(said)
+}
+
+/// Says which corrections of the previous run in a folder a recipe with others leaves out.
+pub(super) fn left_out(folder: &Path, edits: &Edits) -> Option<String> {
+    let path = folder.join(Run::RECIPE);
+    let (_, before) = Recipe::parse(&std::fs::read_to_string(&path).ok()?).ok()?;
+    let now = list(edits);
+    let gone: Vec<String> = list(&before).into_iter().filter(|one| !now.contains(one)).collect();
+    (!gone.is_empty()).then(|| {
+        format!(
+            "the recipe has corrections of its own, without these of {}: {}",
+            path.display(),
+            shortened_list(gone)
+        )
+    })
+}
+
+/// Whether there is a correction.
+pub(super) fn has_some(edits: &Edits) -> bool {
+    !list(edits).is_empty()
 }
 
 /// Lists the settings of the previous run that this one has back at their defaults, as options for a shell.

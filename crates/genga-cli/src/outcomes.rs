@@ -40,6 +40,11 @@ pub(super) fn of_corrections(edits: &Edits, breakdown: &Breakdown<'_>) -> Vec<St
     lines
 }
 
+/// Lists frames.
+fn listed(frames: &[Frame]) -> String {
+    frames.iter().map(Frame::to_string).collect::<Vec<_>>().join(" and ")
+}
+
 /// The keys of a layer before and after the corrections.
 struct Outcomes<'a> {
     own: &'a LayerBreakdown<'a>,
@@ -62,7 +67,7 @@ impl Outcomes<'_> {
         let (drawing, number) = self.genga(frame)?;
         let mut timed = self.sheet.timed();
         let koma = timed.find(|(_, shown)| shown.drawing == drawing).map(|(koma, _)| koma);
-        let instead = match (self.lost_near(frame).join(" and "), koma) {
+        let instead = match (listed(&self.lost_near(frame)), koma) {
             (_, Some(koma)) if self.is_found(frame) => {
                 format!(", a genga already, on koma {}", self.before + koma + 1)
             }
@@ -75,7 +80,16 @@ impl Outcomes<'_> {
     fn of_ban(&self, ban: Forbidden) -> Option<(Frame, String)> {
         let koma = self.clock.frames_in_koma();
         let reached = self.own.uncorrected.iter().filter(|key| ban.reaches(key.frame, koma));
-        let outcomes: Vec<String> = reached.map(|key| self.of_banned(key.frame)).collect();
+        let reached: Vec<Frame> = reached.map(|key| key.frame).collect();
+        let mut outcomes: Vec<String> = reached.iter().map(|at| self.of_banned(*at)).collect();
+        // A step of a gait loses all its phases.
+        let mut others: Vec<Frame> = reached.iter().flat_map(|at| self.lost_near(*at)).collect();
+        others.retain(|at| !ban.reaches(*at, koma));
+        others.sort_unstable();
+        others.dedup();
+        if !others.is_empty() {
+            outcomes.push(format!("with it go the genga at {}", listed(&others)));
+        }
         let line = self.line("forbid", ban, &outcomes.join(", "));
         (!outcomes.is_empty()).then_some((ban.from, line))
     }
@@ -162,13 +176,12 @@ impl Outcomes<'_> {
             && rests.iter().all(|rest| *rest.start() != frame)
     }
 
-    /// Frames of the keys that a pin took the place of.
-    fn lost_near(&self, frame: Frame) -> Vec<String> {
+    /// Frames of the keys that went with a correction at a frame.
+    fn lost_near(&self, frame: Frame) -> Vec<Frame> {
         let (before, after) = self.between(frame);
         let is_near = |at: &Frame| before.is_none_or(|b| b < *at) && after.is_none_or(|a| *at < a);
         let lost = self.lost().filter(is_near);
-        let lost = lost.filter(|at| !self.is_moved(*at) && !self.ends_rest(*at));
-        lost.map(|at| at.to_string()).collect()
+        lost.filter(|at| !self.is_moved(*at) && !self.ends_rest(*at)).collect()
     }
 
     /// The nearest new key between the neighbours of one that is gone, if nobody set it and none that is gone was

@@ -8,7 +8,7 @@ use super::clip::ClipArgs;
 use super::console::Words;
 use super::corrections::Corrections;
 use super::failure::Failure;
-use super::{camera_args, files, freeze_args, pin_args, sheets};
+use super::{camera_args, files, freeze_args, kept, pin_args, sheets};
 use genga::edits::Edits;
 use genga::error::{Error, Warning};
 use genga::motion::Description;
@@ -83,6 +83,8 @@ pub(super) struct Plan<'a> {
     args: &'a PlanArgs,
     pub(super) recipe: Recipe,
     pub(super) edits: Edits,
+    /// Whether the recipe that was read has corrections, without those of the command line.
+    pub(super) is_corrected: bool,
 }
 
 impl PlanArgs {
@@ -118,14 +120,16 @@ impl PlanArgs {
 impl<'a> Plan<'a> {
     /// Builds a plan from a recipe and corrections already read.
     pub(super) fn with(args: &'a PlanArgs, recipe: Recipe, edits: Edits) -> Self {
-        Self { args, recipe, edits }
+        Self { args, recipe, edits, is_corrected: true }
     }
 
     /// Reads the recipe, and refuses what is impossible whatever the motion is.
     pub(super) fn from_args(args: &'a PlanArgs) -> Result<Self, Failure> {
         args.targets.check(&args.corrections)?;
-        let (recipe, edits) = args.corrections.read()?;
-        Ok(Self { args, recipe, edits })
+        let read = args.corrections.settings.read(Recipe::default())?;
+        let is_corrected = kept::has_some(&read.1);
+        let (recipe, edits) = args.corrections.put_over(read)?;
+        Ok(Self { args, recipe, edits, is_corrected })
     }
 
     /// Reads the motion and the camera. Warnings go to `note`. Also returns the mark that identifies the motion.
@@ -159,7 +163,7 @@ impl<'a> Plan<'a> {
         words: &Words,
         note: &mut dyn FnMut(String),
     ) -> Result<(), Failure> {
-        let Self { args, recipe, edits } = self;
+        let Self { args, recipe, edits, .. } = self;
         freeze_args::freeze(&args.corrections, engine, recipe, edits)?
             .into_iter()
             .for_each(&mut *note);

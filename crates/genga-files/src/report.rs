@@ -6,6 +6,7 @@ use genga::error::Error;
 use genga::keys::{Action, Actions, Phase, Walk};
 use genga::motion::SeenFrom;
 use genga::pipeline::{Breakdown, LayerBreakdown};
+use genga::sheet::Layer;
 use genga::timing;
 use genga_lab::study;
 
@@ -164,18 +165,19 @@ impl From<&timing::OmissionReport> for OmissionCounts {
 
 /// The figures of each layer; empty if there is only one.
 fn layers(breakdown: &Breakdown<'_>) -> Vec<LayerReport> {
-    let report = |LayerBreakdown { layer, omission, drawn, .. }: LayerBreakdown<'_>| LayerReport {
+    // On the sheet all layers end together, and holds by hand count.
+    let report = |(of, layer): (LayerBreakdown<'_>, &Layer)| LayerReport {
         name: layer.name.clone(),
         joints: layer.joints.clone(),
-        drawn,
+        drawn: of.drawn,
         genga: layer.genga(),
         drawings: layer.shown().count(),
         drawings_per_second: layer.shown().count() as f64 * breakdown.clock.koma_rate
             / layer.length() as f64,
         longest_hold: layer.longest_hold(),
-        omission: omission.into(),
+        omission: of.omission.into(),
     };
-    let layers = breakdown.layers();
+    let layers = breakdown.layers().zip(&breakdown.sheet.layers);
     if layers.len() > 1 { layers.map(report).collect() } else { Vec::new() }
 }
 

@@ -168,9 +168,18 @@ struct Card<'a> {
 
 impl<'a> Card<'a> {
     fn new(cell: ShownDrawing<'a>, koma_rate: f64) -> Self {
-        let head = [format!("drawing {}", cell.sign()), seconds_and_koma(cell.koma, koma_rate)];
+        // The genga of several columns are named alone, and each has an exposure of its own.
+        let drawing = match cell.is_composite() {
+            true => String::new(),
+            false => format!("drawing {}", cell.sign()),
+        };
+        let head = [drawing, seconds_and_koma(cell.koma, koma_rate)];
         let place = number((cell.drawing.source.place() * 10.0).round() / 10.0);
-        let held = if cell.held == 1 { String::new() } else { format!(" · {} koma", cell.held) };
+        let held = if cell.held == 1 || cell.is_composite() {
+            String::new()
+        } else {
+            format!(" · {} koma", cell.held)
+        };
         Self { cell, head, facts: format!("frame {place}{held}") }
     }
 

@@ -41,15 +41,25 @@ impl ShownDrawing<'_> {
         self.genga.map(|place| self.drawing.genga_number(place))
     }
 
-    /// Returns what a picture calls the drawing: its number, or those of the columns that draw anew.
+    /// Returns what a picture calls the drawing: its number, or those of the columns that draw anew, of many the first.
     pub(super) fn sign(&self) -> String {
-        self.sign.map_or_else(|| self.number().to_string(), |sign| sign.drawing.clone())
+        self.sign.map_or_else(|| self.number().to_string(), |sign| shortened(&sign.drawings))
     }
 
-    /// Returns the same of its genga; `None` for an inbetween.
+    /// Returns what a picture calls its genga, with all columns; `None` for an inbetween.
     pub(super) fn genga_sign(&self) -> Option<String> {
+        self.genga_sign_by(|names| names.join(" "))
+    }
+
+    /// Returns the same for a narrow place: of many columns the first.
+    pub(super) fn short_genga_sign(&self) -> Option<String> {
+        self.genga_sign_by(shortened)
+    }
+
+    fn genga_sign_by(&self, joined: fn(&[String]) -> String) -> Option<String> {
         let number = self.genga_number()?.to_string();
-        Some(self.sign.and_then(|sign| sign.genga.clone()).unwrap_or(number))
+        let genga = self.sign.map(|sign| &*sign.genga).filter(|genga| !genga.is_empty());
+        Some(genga.map_or(number, joined))
     }
 
     /// Whether it is composited from several columns.
@@ -129,12 +139,11 @@ pub(super) fn shown_as<'a>(layer: &'a Layer, named: &Layer) -> Vec<ShownDrawing<
 #[derive(Debug, Default)]
 pub(super) struct Signs(BTreeMap<usize, Sign>);
 
-/// The sign of a composited drawing.
-#[derive(Debug, PartialEq, Eq)]
+/// The sign of a composited drawing: what it is called in each column that draws anew.
+#[derive(Debug, Default)]
 struct Sign {
-    drawing: String,
-    /// That of its genga, if there are some.
-    genga: Option<String>,
+    drawings: Vec<String>,
+    genga: Vec<String>,
 }
 
 impl Signs {
@@ -144,23 +153,19 @@ impl Signs {
         if columns.len() < 2 {
             return Self::default();
         }
-        let mut drawn: BTreeMap<usize, [Vec<String>; 2]> = BTreeMap::new();
+        let mut signs: BTreeMap<usize, Sign> = BTreeMap::new();
         for column in columns {
             let between =
                 if column.name.ends_with(|last: char| last.is_numeric()) { "-" } else { "" };
             let (numbers, genga) = (column.numbers(), column.genga_numbers());
             for (koma, Exposure { drawing, .. }) in column.timed() {
-                let [all, kept] = drawn.entry(koma).or_default();
+                let sign = signs.entry(koma).or_default();
                 let named = |number: &Number| format!("{}{between}{number}", column.name);
-                all.push(named(&numbers[drawing]));
-                kept.extend(genga[drawing].as_ref().map(named));
+                sign.drawings.push(named(&numbers[drawing]));
+                sign.genga.extend(genga[drawing].as_ref().map(named));
             }
         }
-        let sign = |[all, kept]: [Vec<String>; 2]| Sign {
-            drawing: shortened(&all),
-            genga: (!kept.is_empty()).then(|| shortened(&kept)),
-        };
-        Self(drawn.into_iter().map(|(koma, names)| (koma, sign(names))).collect())
+        Self(signs)
     }
 
     /// Whether the sheet has one column, whose drawings need no sign.

@@ -219,7 +219,7 @@ impl<'a> PageSheet<'a> {
             .collect();
         for cell in &cells {
             called[cell.index] = match cell.is_composite() {
-                true => (Called::Sign(cell.sign()), cell.genga_sign().map(Called::Sign)),
+                true => (Called::Sign(cell.sign()), cell.short_genga_sign().map(Called::Sign)),
                 false => (Called::Number(cell.number()), cell.genga_number().map(Called::Number)),
             };
         }

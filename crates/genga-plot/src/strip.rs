@@ -283,7 +283,7 @@ impl Lines<'_> {
         }
         let label = (self.x(koma.start) + 0.5 * self.column, floor + 15.0);
         if koma.start == cell.koma {
-            match cell.genga_sign() {
+            match cell.short_genga_sign() {
                 Some(genga) => canvas.badge(label, &genga, color, cell.is_pinned()),
                 None => canvas.disc(label, 3.0, color),
             }

@@ -81,7 +81,8 @@ struct Named<'a> {
 pub(super) fn run(args: &CompareArgs, words: &Words) -> Result<(), Failure> {
     let targets = || args.out.iter().chain(&args.json);
     for clip in &args.clips {
-        targets().try_for_each(|target| paths::spare(&[("motion", Some(clip))], target))?;
+        let sources = [("motion", Some(&**clip)), ("recipe", args.settings.recipe.as_deref())];
+        targets().try_for_each(|target| paths::spare(&sources, target))?;
     }
     paths::distinct(targets())?;
     let asked = asked(args)?;

@@ -7,7 +7,7 @@ use clap::Args;
 use crate::console::Words;
 use crate::failure::Failure;
 use crate::plan::{Plan, PlanArgs};
-use crate::{camera_args, files, paths};
+use crate::{files, paths, sheets};
 use genga_files::{Drawings, Rows, run_notes};
 
 #[derive(Debug, Args)]
@@ -24,13 +24,10 @@ pub(super) struct KeysArgs {
 
 pub(super) fn run(args: &KeysArgs, words: &Words) -> Result<(), Failure> {
     let (clip, corrections) = (&args.plan.clip.path, &args.plan.corrections);
-    let sources = [
-        ("motion", Some(&**clip)),
-        ("file with your keys", corrections.pin_from.as_deref()),
-        ("frozen sheet", corrections.freeze.as_deref()),
-        ("camera", camera_args::file(&corrections.seen)),
-    ];
-    paths::spare(&sources, &args.out)?;
+    let frozen = corrections.freeze.as_deref().map(sheets::file_of).transpose()?;
+    let others = [("motion", Some(&**clip)), ("frozen sheet", frozen.as_deref())];
+    paths::spare(&others, &args.out)?;
+    paths::spare(&corrections.sources(), &args.out)?;
     let mut plan = Plan::from_args(&args.plan)?;
     let (mut engine, _) = plan.read(&mut |warning| words.warn(warning))?;
     plan.settle(&mut engine, words, &mut |note| words.say(note))?;

@@ -27,7 +27,7 @@ pub(super) struct RunArgs {
     out: Option<PathBuf>,
     /// Drop the corrections and numbers of the previous run.
     ///
-    /// Those in the recipe of the same folder stay otherwise, unless --recipe is given.
+    /// Those in the recipe of the same folder stay otherwise, unless a --recipe has others.
     #[arg(long)]
     fresh: bool,
     /// Number the drawings from 1; corrections stay.
@@ -91,9 +91,12 @@ pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
     let beside = recipe.filter(|beside| Folder::look(beside, args.formats.over()).is_of(&of));
     let own = place.is_of(&of).then_some(&*folder);
     notes.extend(beside.or(own).and_then(|before| part_of_take::other(before, engine.clip())));
-    let keeps =
-        !args.fresh && args.plan.corrections.settings.recipe.is_none() && place.has_run_of(&of);
-    let kept_corrections = if keeps { kept::keep(&mut plan, &folder, &engine)? } else { vec![] };
+    let is_again = !args.fresh && place.has_run_of(&of);
+    let kept_corrections = match plan.is_corrected {
+        false if is_again => kept::keep(&mut plan, &folder, &engine)?,
+        true if is_again => kept::left_out(&folder, &plan.edits).into_iter().collect(),
+        _ => vec![],
+    };
     working.on("finding the key drawings");
     plan.settle(&mut engine, words, &mut |note| notes.push(note))?;
     let Plan { recipe, edits, .. } = &plan;

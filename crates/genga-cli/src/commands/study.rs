@@ -132,7 +132,8 @@ fn persistence(values: &str) -> Result<Axis, Error> {
 pub(super) fn run(args: &StudyArgs, words: &Words) -> Result<(), Failure> {
     let targets = || args.plot.iter().chain(&args.heat).chain(&args.caption).chain([&args.out]);
     for clip in &args.clips {
-        targets().try_for_each(|target| paths::spare(&[("motion", Some(clip))], target))?;
+        let sources = [("motion", Some(&**clip)), ("recipe", args.settings.recipe.as_deref())];
+        targets().try_for_each(|target| paths::spare(&sources, target))?;
     }
     paths::distinct(targets())?;
     paths::check_picture("plot", args.plot.as_ref())?;

@@ -80,7 +80,7 @@ pub struct Row {
     pub mean: f64,
     /// The error of the worst koma.
     pub worst: f64,
-    /// The mean error as a multiple of the optimum; `None` if the optimum is unknown or 0.
+    /// The mean error as a multiple of the optimum; `None` if the optimum is unknown or 0, or has fewer keys.
     pub mean_ratio: Option<f64>,
     /// The worst error as a multiple of the optimum.
     pub worst_ratio: Option<f64>,
@@ -228,16 +228,20 @@ fn row(grid: &KomaFrames, method: Method, asked: usize, keys: &[Frame], extrema:
     }
 }
 
-/// Completes the rows of one count with the ratios of their errors to the optimum.
+/// Completes the rows of one count with the ratios of their errors to the optimum. More keys than the optimum has are
+/// not compared with it.
 fn with_ratios(mut rows: Vec<Row>) -> Vec<Row> {
     let of = |method: Method, error: fn(&Row) -> f64| {
-        rows.iter().find(|row| row.method == method).map(error).filter(|least| *least > 0.0)
+        let best = rows.iter().find(|row| row.method == method)?;
+        Some((best.keys, error(best))).filter(|(_, least)| *least > 0.0)
     };
     let mean = of(Method::OptimalMean, |row| row.mean);
     let worst = of(Method::OptimalWorst, |row| row.worst);
     for row in &mut rows {
-        row.mean_ratio = mean.map(|least| row.mean / least);
-        row.worst_ratio = worst.map(|least| row.worst / least);
+        let ratio = |error: f64, best: Option<(usize, f64)>| {
+            best.filter(|(keys, _)| row.keys <= *keys).map(|(_, least)| error / least)
+        };
+        (row.mean_ratio, row.worst_ratio) = (ratio(row.mean, mean), ratio(row.worst, worst));
     }
     rows
 }

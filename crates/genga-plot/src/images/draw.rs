@@ -5,7 +5,7 @@ use rayon::prelude::*;
 
 use super::NumberedImages;
 use crate::canvas::Inks;
-use crate::drawings::composed;
+use crate::drawings::{columns, composed};
 use crate::figure::{Drawn, Figure};
 use crate::paper_point::Point;
 use crate::pixels::{Digits, Pixels};
@@ -127,8 +127,13 @@ impl NumberedImages {
     ) -> Result<(), E> {
         self.set_up(clip, sheet, |composite, easel, placing| {
             let name: String = composite.layer().name.chars().map(plain).collect();
-            let numbers = composite.layer().numbers();
             let drawings = drawings(composite);
+            let mut numbers = composite.layer().numbers();
+            // Several columns have numbers of their own. What all draw together is known by its koma.
+            if columns(sheet).len() > 1 {
+                let koma = |(_, koma): &(usize, usize)| (sheet.blank.before + koma + 1).into();
+                numbers = drawings.iter().map(koma).collect();
+            }
             for some in drawings.chunks(AT_ONCE) {
                 let figure = |(at, koma): &(usize, usize)| {
                     (easel.stage.draw(&placing.points(*at, *koma)), &numbers[*at])

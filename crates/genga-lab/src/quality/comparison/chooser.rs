@@ -10,7 +10,7 @@ use crate::quality::{Compare, KomaFrames, Method};
 use crate::study::table_1_recipe;
 use genga::edits::Edits;
 use genga::error::Error;
-use genga::keys::Rank;
+use genga::keys::{AtGaits, Rank};
 use genga::motion::Clip;
 use genga::pipeline::{Engine, Stop};
 use genga::recipe::Recipe;
@@ -98,25 +98,37 @@ impl<'a> Chooser<'a> {
         Ok(chosen)
     }
 
-    /// Returns the keys of a recipe with room for each count. If a count is below the number of rest ends, rests are
-    /// left out, as their ends stay whatever a key saves.
+    /// Returns the keys of a recipe with room for each count; without gaits where their phases allow no such count.
     fn own(&mut self, recipe: &Recipe, counts: &[usize]) -> Result<Vec<Vec<Frame>>, Error> {
+        let mut free = recipe.clone();
+        free.keys.gaits = AtGaits::Off;
+        let keys = |count: &usize| {
+            let keys = self.own_of(recipe, *count)?;
+            if keys.len() == *count {
+                return Ok(keys);
+            }
+            let others = self.own_of(&free, *count)?;
+            let off = |keys: &Vec<Frame>| keys.len().abs_diff(*count);
+            Ok(if off(&others) < off(&keys) { others } else { keys })
+        };
+        counts.iter().map(keys).collect()
+    }
+
+    /// Returns as many keys of a recipe as it can have. If the count is below the number of rest ends, rests are left
+    /// out, as their ends stay whatever a key saves.
+    fn own_of(&mut self, recipe: &Recipe, count: usize) -> Result<Vec<Frame>, Error> {
         let edits = Edits::default();
         let layer = self.engine.find_keys(recipe, &edits)?.keys;
         let rests = layer.keys.iter().filter(|key| !key.origin.is_found()).count();
         let mut without_rests = recipe.clone();
         without_rests.keys.rest = 0.0;
-        let mut keys = Vec::with_capacity(counts.len());
-        for count in counts {
-            let (recipe, free) = match count.checked_sub(rests) {
-                Some(free) => (recipe, free),
-                None => (&without_rests, *count),
-            };
-            let recipe = with_found(&mut self.engine, recipe, &edits, free)?;
-            let layer = self.engine.find_keys(&recipe, &edits)?.keys;
-            keys.push(layer.keys.iter().map(|key| key.frame).collect());
-        }
-        Ok(keys)
+        let (recipe, free) = match count.checked_sub(rests) {
+            Some(free) => (recipe, free),
+            None => (&without_rests, count),
+        };
+        let recipe = with_found(&mut self.engine, recipe, &edits, free)?;
+        let layer = self.engine.find_keys(&recipe, &edits)?.keys;
+        Ok(layer.keys.iter().map(|key| key.frame).collect())
     }
 
     fn optimal(&self, segments: &Segments, method: Method, counts: &[usize]) -> Vec<Vec<Frame>> {
