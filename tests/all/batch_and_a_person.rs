@@ -44,6 +44,22 @@ fn files_that_no_batch_wrote_are_left_alone() {
     assert!(!place.path("lost/clips/kick.bvh/sheet.json").exists());
 }
 
+#[test]
+fn a_run_leaves_the_folders_of_a_batch_alone() {
+    let place = Place::new();
+    place.done(BATCH);
+    let before = results(&place, "out");
+    for more in ["", " --force"] {
+        let said =
+            place.refused(2, &format!("run data/kick.bvh --pin 20 --out out/clips/kick.bvh{more}"));
+        assert!(said.contains("correct it by a table of the batch"), "{said}");
+    }
+    assert_eq!(results(&place, "out"), before);
+    // Another folder of that name is no batch.
+    fs::create_dir_all(place.path("mine/clips")).unwrap();
+    place.done("run data/kick.bvh --out mine/clips/kick");
+}
+
 #[cfg(unix)]
 #[test]
 fn links_that_a_person_made_are_left_alone() {

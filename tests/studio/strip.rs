@@ -197,6 +197,12 @@ fn where_a_foot_comes_down_the_strip_says_so() {
     table.harness.hover_at(all[3]);
     table.harness.run();
     assert!(table.says("The right foot stands still from koma 60"));
+    // Beside the genga itself there is room for the whole word.
+    let genga = table.genga();
+    table.go(genga[10]);
+    assert!(table.says("contact of the right foot; "), "genga 11");
+    table.go(genga[8]);
+    assert!(!table.says("contact of"), "genga 9");
 }
 
 #[test]

@@ -6,6 +6,7 @@ use clap::builder::StyledStr;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{CommandFactory, Parser};
 
+use genga::error::did_you_mean;
 use genga::recipe::KNOBS;
 
 use super::commands::Args;
@@ -37,7 +38,7 @@ fn tip(error: &clap::Error) -> Option<String> {
         ErrorKind::InvalidSubcommand => {
             let word = word(ContextKind::InvalidSubcommand)?;
             let is_suggested = error.get(ContextKind::SuggestedSubcommand).is_some();
-            clip_of(Path::new(word)).or_else(|| commands_like(word).filter(|_| !is_suggested))
+            clip_of(Path::new(word)).or_else(|| (!is_suggested).then(|| command_like(word)))
         }
         ErrorKind::UnknownArgument => {
             let word = word(ContextKind::InvalidArg)?;
@@ -72,11 +73,12 @@ fn clip_of(path: &Path) -> Option<String> {
         .then(|| format!("type: genga run {}", quoted(&clip.display().to_string())))
 }
 
-/// Suggests the commands that begin with the same letter as a misspelled word.
-fn commands_like(word: &str) -> Option<String> {
+/// Suggests the command that a misspelled word is like, else says where options, settings and formats are listed.
+fn command_like(word: &str) -> String {
     let commands = Args::command();
     let names = commands.get_subcommands().map(clap::Command::get_name);
-    let like = names.filter(|name| name.chars().next() == word.chars().next());
-    let like = like.collect::<Vec<_>>().join(" or ");
-    (!like.is_empty()).then(|| format!("did you mean {like}?"))
+    match did_you_mean(word, names).strip_prefix("; ") {
+        Some(meant) => meant.to_owned(),
+        None => "options are in genga run --help, settings in genga recipe, formats in genga help deliver".into(),
+    }
 }

@@ -2,11 +2,13 @@
 
 use egui::{DragValue, Label, RichText, TextEdit, Ui, UiBuilder, vec2};
 
+use super::column::KeyedCell;
 use super::command::Command;
 use super::corrections::Correction;
 use super::icon::{self, Icon};
 use super::knobs::is_other;
 use super::playhead_edits::MOST_WEIGHT;
+use super::strip::feet;
 use super::view_state::Shown;
 use super::why;
 use super::words::Words;
@@ -84,7 +86,7 @@ impl KeyPanel {
             match cell.genga_number() {
                 Some(number) => {
                     ui.strong(format!("{} {number}", words.say("Genga", "原画")));
-                    reason(ui, &why::sentence(&cell.drawing.why, words));
+                    reason(ui, &whole_reason(cell, shown));
                 }
                 None => _ = ui.strong(words.say("Inbetween", "中割り")),
             }
@@ -101,7 +103,7 @@ impl KeyPanel {
                 false => format!("koma {koma} · frame {frame}"),
             });
         });
-        reason(ui, &why::sentence(&cell.drawing.why, words));
+        reason(ui, &whole_reason(cell, shown));
         ui.horizontal(|ui| {
             show(ui, key, shown, commands);
             // The buttons before act on the drawing that stays; this one on the koma where the play head stands.
@@ -145,6 +147,15 @@ impl KeyPanel {
             commands.push(Command::Correct(Correction::Name(typed, text)));
         }
     }
+}
+
+/// Returns why the drawing is there, after the foot that comes down with it.
+fn whole_reason(cell: &KeyedCell<'_>, shown: &Shown<'_>) -> String {
+    let why = why::sentence(&cell.drawing.why, shown.words);
+    let contact = feet::contact_at(cell.koma, shown).map(str::to_owned);
+    let both: Vec<String> =
+        contact.into_iter().chain([why]).filter(|part| !part.is_empty()).collect();
+    both.join(shown.words.say("; ", "、"))
 }
 
 /// Shows why the drawing is there, in three lines, with the full text as a tooltip.

@@ -3,7 +3,7 @@
 
 mod bans;
 mod choice;
-mod feet;
+pub(crate) mod feet;
 mod figures;
 mod layout;
 mod pointer;

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Arg, ArgAction, Args};
 
+use crate::batch::place::spare_batch;
 use crate::console::{Words, counted};
 use crate::failure::Failure;
 use crate::folder::Folder;
@@ -77,6 +78,7 @@ pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
     paths::check_folder(args.out.as_deref(), "run", "; genga keys writes a table there")?;
     let folder = args.out.clone().unwrap_or_else(|| format!("{name}-genga").into());
     spare(args, &formats, &folder, &name)?;
+    spare_batch(&folder)?;
 
     let (working, mut notes) = (words.working(), Vec::new());
     working.on("reading the motion");

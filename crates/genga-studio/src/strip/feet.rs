@@ -58,6 +58,23 @@ pub(super) fn explain(response: Response, layout: &Layout, shown: &Shown<'_>) ->
     })
 }
 
+/// Says which foot comes down with the drawing that begins on a koma, if one does.
+pub(crate) fn contact_at(koma: usize, shown: &Shown<'_>) -> Option<&'static str> {
+    let clock = shown.column().clock;
+    let away = |stand: &&Stand| {
+        let place = stand.from - clock.place_from_koma(0);
+        (place / clock.frames_in_koma() - koma as f64).abs()
+    };
+    let landings = stands(shown).filter(|stand| lands(stand, shown));
+    let nearest = landings.min_by(|a, b| away(a).total_cmp(&away(b)))?;
+    let side = (away(&nearest) <= f64::from(NEAR)).then_some(nearest.side)?;
+    Some(match side {
+        BodySide::Left => shown.words.say("contact of the left foot", "左足の接地"),
+        BodySide::Right => shown.words.say("contact of the right foot", "右足の接地"),
+        BodySide::Trunk => shown.words.say("contact of a foot", "足の接地"),
+    })
+}
+
 /// A contact that is named.
 struct Contact<'a> {
     stand: &'a Stand,
