@@ -15,7 +15,7 @@
 
 pub(super) mod journal;
 pub(super) mod list;
-mod own_results;
+pub(super) mod own_results;
 pub(super) mod pack;
 pub(super) mod place;
 pub(super) mod pool;

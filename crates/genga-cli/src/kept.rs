@@ -73,11 +73,6 @@ pub(super) fn left_out(folder: &Path, edits: &Edits) -> Option<String> {
     })
 }
 
-/// Whether there is a correction.
-pub(super) fn has_some(edits: &Edits) -> bool {
-    !list(edits).is_empty()
-}
-
 /// Lists the settings of the previous run that this one has back at their defaults, as options for a shell.
 fn lost_settings(before: &Recipe, now: &Recipe) -> Vec<String> {
     let [usual, before, now] = [&Recipe::default(), before, now].map(Recipe::settings);

@@ -8,7 +8,7 @@ use super::clip::ClipArgs;
 use super::console::Words;
 use super::corrections::Corrections;
 use super::failure::Failure;
-use super::{camera_args, files, freeze_args, kept, pin_args, sheets};
+use super::{camera_args, files, freeze_args, pin_args, sheets};
 use genga::edits::Edits;
 use genga::error::{Error, Warning};
 use genga::motion::Description;
@@ -127,7 +127,7 @@ impl<'a> Plan<'a> {
     pub(super) fn from_args(args: &'a PlanArgs) -> Result<Self, Failure> {
         args.targets.check(&args.corrections)?;
         let read = args.corrections.settings.read(Recipe::default())?;
-        let is_corrected = kept::has_some(&read.1);
+        let is_corrected = read.1 != Edits::default();
         let (recipe, edits) = args.corrections.put_over(read)?;
         Ok(Self { args, recipe, edits, is_corrected })
     }

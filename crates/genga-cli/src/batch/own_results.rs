@@ -4,6 +4,7 @@ use std::fs::{self, File};
 use std::io::{BufRead, BufReader};
 use std::path::Path;
 
+use super::super::failure::Failure;
 use super::journal::{Header, is_journal};
 use super::place::CLIPS;
 use genga_files::{Manifest, Run};
@@ -45,4 +46,16 @@ fn begins_with_header(journal: &Path) -> std::io::Result<bool> {
     let mut line = String::new();
     BufReader::new(File::open(journal)?).read_line(&mut line)?;
     Ok(Header::is_header(&line))
+}
+
+/// Refuses a folder in which a batch keeps a clip: its tables and its journal are of what it wrote there.
+pub(crate) fn spare_batch(folder: &Path) -> Result<(), Failure> {
+    if !is_in_batch(folder) {
+        return Ok(());
+    }
+    Err(Failure::AskedWrongly(format!(
+        "{}: a batch keeps a clip here; correct it by a table of the batch (columns clip, pin, recipe …), or write \
+         elsewhere with --out",
+        folder.display()
+    )))
 }

@@ -11,30 +11,11 @@ use super::super::format_args::Overwrites;
 use super::super::paths;
 use super::super::shell::quoted;
 use super::super::staging::Staging;
-use super::journal::is_journal;
 use super::row::Line;
 use genga::error::Error;
 
 /// Folder that holds a folder per clip.
 pub(super) const CLIPS: &str = "clips";
-
-/// Refuses a folder in which a batch keeps a clip: its tables and its journal are of what it wrote there.
-pub(crate) fn spare_batch(folder: &Path) -> Result<(), Failure> {
-    let mut above = folder.ancestors().skip(1);
-    let clips = above.find(|above| above.file_name().is_some_and(|name| name == CLIPS));
-    let Some(out) = clips.and_then(Path::parent) else { return Ok(()) };
-    let place = if out.as_os_str().is_empty() { Path::new(".") } else { out };
-    let mut files = fs::read_dir(place).into_iter().flatten().flatten();
-    if !files.any(|file| file.file_name().to_str().is_some_and(is_journal)) {
-        return Ok(());
-    }
-    Err(Failure::AskedWrongly(format!(
-        "{}: the batch in {} keeps a clip here; correct it by a table of the batch (columns clip, pin, recipe …), or write \
-         elsewhere with --out",
-        folder.display(),
-        place.display()
-    )))
-}
 
 /// Digests of files by name.
 type Files = BTreeMap<String, String>;

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Arg, ArgAction, Args};
 
-use crate::batch::place::spare_batch;
+use crate::batch::own_results::spare_batch;
 use crate::console::{Words, counted};
 use crate::failure::Failure;
 use crate::folder::Folder;
