@@ -180,15 +180,14 @@ fn of_a_format(name: &str, value: &str, error: Error) -> Failure {
 }
 
 impl Corrections {
-    /// The files that are read for them, which no output may replace.
-    pub(super) fn sources(&self) -> [(&'static str, Option<&Path>); 5] {
+    /// The files that are read for them, which no output may replace; without that of `--freeze`, which may be in a folder.
+    pub(super) fn sources(&self) -> [(&'static str, Option<&Path>); 4] {
         let layers = self.layers.layers.as_deref().map(Path::new);
         [
             ("recipe", self.settings.recipe.as_deref()),
             ("file of layers", layers.filter(|file| file.is_file())),
             ("camera", camera_args::file(&self.seen)),
             ("file with your keys", self.pin_from.as_deref()),
-            ("frozen sheet", self.freeze.as_deref()),
         ]
     }
 

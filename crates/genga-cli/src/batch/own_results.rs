@@ -20,6 +20,18 @@ pub(super) fn is_in_batch(path: &Path) -> bool {
     path.ancestors().filter(is_clips).filter_map(Path::parent).any(is_batch)
 }
 
+/// Refuses a folder in which a batch keeps a clip. The batch's tables and journal describe what it wrote there.
+pub(crate) fn spare_batch(folder: &Path) -> Result<(), Failure> {
+    if !is_in_batch(folder) {
+        return Ok(());
+    }
+    Err(Failure::AskedWrongly(format!(
+        "{}: a batch keeps a clip here; correct it by a table of the batch (columns clip, pin, recipe …), or write \
+         elsewhere with --out",
+        folder.display()
+    )))
+}
+
 /// Whether a folder holds the results of a run, and the file is one of them.
 pub(super) fn is_result(file: &Path) -> bool {
     let (Some(folder), Some(name)) = (file.parent(), file.file_name()) else { return false };
@@ -46,16 +58,4 @@ fn begins_with_header(journal: &Path) -> std::io::Result<bool> {
     let mut line = String::new();
     BufReader::new(File::open(journal)?).read_line(&mut line)?;
     Ok(Header::is_header(&line))
-}
-
-/// Refuses a folder in which a batch keeps a clip: its tables and its journal are of what it wrote there.
-pub(crate) fn spare_batch(folder: &Path) -> Result<(), Failure> {
-    if !is_in_batch(folder) {
-        return Ok(());
-    }
-    Err(Failure::AskedWrongly(format!(
-        "{}: a batch keeps a clip here; correct it by a table of the batch (columns clip, pin, recipe …), or write \
-         elsewhere with --out",
-        folder.display()
-    )))
 }

@@ -22,8 +22,8 @@ pub(super) struct EvalArgs {
     /// The motion that the sheet was made of, the whole file.
     #[arg(long, short, value_name = "CLIP")]
     clip: PathBuf,
-    /// Reference keys to judge the genga by: a sheet.json or its folder, a table of `genga keys`, a CSV with a column frame, a list
-    /// of source frames, one per line, or the keyed frames of an MMD motion (.vmd).
+    /// Reference keys to judge the genga by: a sheet.json or its folder, a table of `genga keys`, a CSV with a column
+    /// frame, a list of source frames, one per line, or the keyed frames of an MMD motion (.vmd).
     #[arg(long, value_name = "KEYS")]
     reference: Option<PathBuf>,
     /// Largest distance between a genga and the reference key that it matches, in koma.
