@@ -58,17 +58,21 @@ pub(super) fn explain(response: Response, layout: &Layout, shown: &Shown<'_>) ->
     })
 }
 
-/// Says which foot comes down with the drawing that begins on a koma, if one does.
+/// Says which foot comes down with the genga that begins on a koma, if one does: that of the word on the strip.
 pub(crate) fn contact_at(koma: usize, shown: &Shown<'_>) -> Option<&'static str> {
     let clock = shown.column().clock;
-    let away = |stand: &&Stand| {
+    let away = |stand: &Stand, koma: usize| {
         let place = stand.from - clock.place_from_koma(0);
         (place / clock.frames_in_koma() - koma as f64).abs()
     };
-    let landings = stands(shown).filter(|stand| lands(stand, shown));
-    let nearest = landings.min_by(|a, b| away(a).total_cmp(&away(b)))?;
-    let side = (away(&nearest) <= f64::from(NEAR)).then_some(nearest.side)?;
-    Some(match side {
+    let cells = &shown.column().cells;
+    let is_own = |stand: &&Stand| {
+        let genga = cells.iter().filter(|cell| cell.genga.is_some()).map(|cell| cell.koma);
+        let nearest = genga.min_by(|a, b| away(stand, *a).total_cmp(&away(stand, *b)));
+        nearest == Some(koma) && away(stand, koma) <= f64::from(NEAR)
+    };
+    let landing = stands(shown).filter(|stand| lands(stand, shown)).find(is_own)?;
+    Some(match landing.side {
         BodySide::Left => shown.words.say("contact of the left foot", "左足の接地"),
         BodySide::Right => shown.words.say("contact of the right foot", "右足の接地"),
         BodySide::Trunk => shown.words.say("contact of a foot", "足の接地"),
