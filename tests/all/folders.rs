@@ -63,13 +63,55 @@ fn what_a_run_does_not_write_again_is_gone() {
     assert_eq!(rows, 8);
 }
 
+/// The formats of a folder would keep the old timing otherwise, or be gone.
+#[test]
+fn a_run_that_names_no_format_writes_those_of_its_folder_again() {
+    let place = Place::new();
+    place.done("run data/kick.bvh --deliver xdts,glb --out a");
+    let before = all(&place.path("a"));
+    let said = place.said("run data/kick.bvh --pin 61 --out a");
+    assert!(said.contains("as the folder has them: glb, xdts ("), "{said}");
+    place.done("run data/kick.bvh --out b");
+    place.done("run data/kick.bvh --pin 61 --deliver xdts,glb --out b");
+    let (again, asked) = (all(&place.path("a")), all(&place.path("b")));
+    let file = "kick_genga_ts.xdts";
+    assert!(again[file] == asked[file] && again[file] != before[file]);
+    assert_eq!(again.keys().collect::<Vec<_>>(), asked.keys().collect::<Vec<_>>());
+    check_manifest(&place, "a");
+    // Named formats are those of the folder from there on, and a BVH is one too.
+    let said = place.said("run data/kick.bvh --bvh keys --out a");
+    assert!(said.contains("removed: ") && said.contains("limited.glb"), "{said}");
+    let said = place.said("run data/kick.bvh --keys 8 --out a");
+    assert!(said.contains("as the folder has them: bvh-keys ("), "{said}");
+    assert!(!place.said("run data/kick.bvh --fresh --out a").contains("as the folder has"));
+    // A format that is read from its own place would be lost.
+    place.done("run data/kick.bvh --bvh stepped --out c");
+    let said = place.refused(2, "run c/limited.bvh --out c");
+    assert!(said.contains("c/limited.bvh") || said.contains("another clip"), "{said}");
+}
+
+/// Of an edited sheet only what is delivered has the new timing.
+#[test]
+fn a_delivery_of_an_edited_sheet_says_what_keeps_the_old_timing() {
+    let place = Place::new();
+    place.done("run data/kick.bvh --deliver xdts,glb --out a");
+    assert!(!place.said("deliver a data/kick.bvh --to xdts").contains("edited"));
+    let sheet = text(&place.files("a")["sheet.json"]);
+    let longer = sheet.replace("{\"drawing\": 1, \"koma\": 10}", "{\"drawing\": 1, \"koma\": 12}");
+    assert!(longer != sheet);
+    fs::write(place.path("a/sheet.json"), longer).unwrap();
+    let said = place.said("deliver a data/kick.bvh --to xdts");
+    let way = said.lines().find(|line| line.contains("the sheet was edited")).unwrap();
+    assert!(way.contains("csv,glb,") && !way.contains("xdts"), "{said}");
+}
+
 #[test]
 fn what_a_person_changed_is_kept_and_named() {
     let place = Place::new();
     place.done("run data/kick.bvh --deliver xdts,images --out a");
     let painted = change(&place, "a/images/A_0003.png");
     fs::write(place.path("a/images/sketch.png"), "mine").unwrap();
-    let said = place.said("run data/kick.bvh --keys 8 --out a");
+    let said = place.said("run data/kick.bvh --keys 8 --deliver json --out a");
     assert!(said.contains("kept because they were changed since: images/A_0003.png"), "{said}");
     assert!(!place.path("a/images/A_0001.png").exists());
     assert_eq!(fs::read(place.path("a/images/A_0003.png")).unwrap(), painted);
@@ -85,7 +127,7 @@ fn what_a_link_leads_to_is_not_removed() {
     fs::rename(place.path("a/images"), place.path("elsewhere")).unwrap();
     std::os::unix::fs::symlink("../elsewhere", place.path("a/images")).unwrap();
     let before = all(&place.path("elsewhere"));
-    let said = place.said("run data/kick.bvh --out a");
+    let said = place.said("run data/kick.bvh --deliver json --out a");
     assert!(said.contains("kept because a link leads to them: images/A_0001.png"), "{said}");
     assert_eq!(all(&place.path("elsewhere")), before);
 }
@@ -215,7 +257,7 @@ fn a_delivery_adds_to_the_run() {
     place.done("deliver a/sheet.json data/kick.bvh --to xdts,images");
     check_manifest(&place, "a");
     // The next run knows the files that were delivered.
-    place.done("run data/kick.bvh --keys 8 --out a");
+    place.done("run data/kick.bvh --keys 8 --deliver json --out a");
     assert!(!place.path("a/kick_genga_ts.xdts").exists());
     check_manifest(&place, "a");
 }

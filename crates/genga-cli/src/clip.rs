@@ -9,6 +9,7 @@ use clap::Args;
 use super::console::Words;
 use super::failure::Failure;
 use super::headings::READING;
+use super::several::Several;
 use super::{files, paths};
 use genga::error::{Error, Warning};
 use genga::motion::clean::{Cleaning, glitches};
@@ -27,6 +28,13 @@ pub(super) struct ClipArgs {
     pub(super) path: PathBuf,
     #[command(flatten)]
     pub(super) part: Part,
+}
+
+/// A clip of several, with the name that tells it from the others.
+pub(super) struct NamedClip<'a> {
+    pub(super) name: String,
+    pub(super) path: &'a Path,
+    pub(super) clip: Clip,
 }
 
 /// Which part of a clip, and how it is read.
@@ -202,15 +210,22 @@ impl Part {
         Ok(Source { clip, notes, written_frame_time, found, takes, of })
     }
 
-    /// Reads every file before any work begins, and prints each one's warnings.
-    pub(super) fn read_all(&self, clips: &[PathBuf], words: &Words) -> Result<Vec<Clip>, Failure> {
-        let read = |path: &PathBuf| {
-            let source = self.read(path)?;
-            let of = if clips.len() > 1 { format!("{}: ", path.display()) } else { String::new() };
+    /// Reads every file before any work begins, and prints each one's warnings. A file that cannot be read is told and
+    /// left out, if there are others.
+    pub(super) fn read_all<'a>(
+        &self,
+        paths: &'a [PathBuf],
+        several: &mut Several<'_>,
+        words: &Words,
+    ) -> Result<Vec<NamedClip<'a>>, Failure> {
+        let mut clips = Vec::with_capacity(paths.len());
+        for (name, path) in paths::names(paths).into_iter().zip(paths) {
+            let Some(source) = several.keep(self.read(path))? else { continue };
+            let of = if paths.len() > 1 { format!("{}: ", path.display()) } else { String::new() };
             source.notes.iter().for_each(|warning| words.warn_of(&of, warning));
-            Ok(source.clip)
-        };
-        clips.iter().map(read).collect()
+            clips.push(NamedClip { name, path, clip: source.clip });
+        }
+        Ok(clips)
     }
 }
 

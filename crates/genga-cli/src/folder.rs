@@ -1,7 +1,7 @@
 //! A results folder, which belongs to one run (一回の結果). Its manifest tells the next run which files are genga's and
 //! which a person has changed.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::io::ErrorKind;
 use std::path::Path;
@@ -10,7 +10,7 @@ use super::failure::Failure;
 use super::format_args::{Overwrites, shortened};
 use super::paths;
 use super::staging::{self, Bundle};
-use genga_files::{ClipMark, Manifest, Run};
+use genga_files::{ClipMark, Format, Manifest, Run};
 
 /// A results folder as it is before a run writes to it.
 pub(super) struct Folder<'a> {
@@ -28,6 +28,8 @@ pub(super) struct Made<'a> {
     pub(super) clip: ClipMark,
     /// Digest of the recipe. `None` if a sheet was delivered.
     pub(super) recipe: Option<String>,
+    /// Names of the formats that were written.
+    pub(super) formats: Vec<&'static str>,
     /// Numbered files left over from a longer sheet.
     pub(super) stale: Vec<String>,
     /// Whether all other files of the previous run stay.
@@ -117,6 +119,13 @@ impl<'a> Folder<'a> {
         self.before.as_ref().is_some_and(|before| before.clip.is_of(clip))
     }
 
+    /// Names of the formats that runs and deliveries of this clip wrote here, but those that this build does not have.
+    pub(super) fn formats(&self, clip: &ClipMark) -> Vec<&'static str> {
+        let before = self.before.iter().filter(|before| before.clip.is_of(clip));
+        let names = before.flat_map(|before| &before.formats);
+        names.filter_map(|name| Some(Format::find(name).ok()?.name)).collect()
+    }
+
     /// The folder's path.
     pub(super) fn path(&self) -> &'a Path {
         self.path
@@ -144,7 +153,11 @@ impl<'a> Folder<'a> {
             |name: &String| [&gone, &changed, &linked].iter().any(|of| of.contains(name));
         let stale = made.stale.into_iter().filter(|name| !is_known(name)).collect();
         let recipe = made.recipe.or_else(|| self.before.as_ref()?.recipe.clone());
+        let kept = if made.adds { self.formats(&made.clip) } else { vec![] };
+        let formats: BTreeSet<&str> = kept.into_iter().chain(made.formats).collect();
+        let formats = formats.into_iter().map(str::to_owned).collect();
         let mut manifest = Manifest::new(made.clip);
+        manifest.formats = formats;
         manifest.recipe = recipe;
         manifest.files = stay.into_iter().chain(come).collect();
         bundle.add(Run::MANIFEST, manifest.write()?)?;

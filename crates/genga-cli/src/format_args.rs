@@ -118,6 +118,11 @@ fn is_named(name: &str, folder: &Path, file: &str) -> bool {
 }
 
 impl FormatArgs {
+    /// Whether a BVH is asked for.
+    pub(super) fn asks_for_bvh(&self) -> bool {
+        self.bvh.is_some()
+    }
+
     /// Changed files that the arguments allow to overwrite.
     pub(super) fn over(&self) -> Overwrites<'_> {
         Overwrites { is_forced: self.force, named: &self.overwrite }
@@ -314,9 +319,20 @@ impl Formats {
 
     /// Text that is the same for formats that write the same files.
     pub(super) fn fingerprint(&self) -> String {
-        let Self { formats, named, settings, .. } = self;
-        let names: Vec<&str> = formats.iter().map(|format| format.name).collect();
-        format!("{names:?} {named:?} {settings:?}")
+        let Self { named, settings, .. } = self;
+        format!("{:?} {named:?} {settings:?}", self.names())
+    }
+
+    /// Adds formats by name, as `all` has them: one that cannot be made is left out.
+    pub(super) fn with(mut self, names: &[&str]) -> Self {
+        let is_wanted = |format: &&Format| self.writes(format.name) || names.contains(&format.name);
+        self.formats = FORMATS.iter().filter(is_wanted).collect();
+        self
+    }
+
+    /// Names of the formats, in the order in which they are written.
+    pub(super) fn names(&self) -> Vec<&'static str> {
+        self.formats.iter().map(|format| format.name).collect()
     }
 
     /// Encodes a table as the settings of tables say.

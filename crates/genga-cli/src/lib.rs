@@ -45,6 +45,7 @@ mod paths;
 mod pin_args;
 mod plan;
 mod results;
+mod several;
 mod sheets;
 mod shell;
 mod staging;

@@ -75,6 +75,7 @@ impl Results<'_> {
         let made = Made {
             clip: self.clip.clone(),
             recipe: Some(digest),
+            formats: formats.names(),
             stale: written.stale,
             adds: false,
             given: self.is_own_recipe.then_some(Run::RECIPE),

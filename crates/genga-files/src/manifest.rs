@@ -25,6 +25,9 @@ pub struct Manifest {
     /// Digest of recipe and corrections as in `recipe.toml`; `None` if only a sheet was delivered.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub recipe: Option<String>,
+    /// Names of the formats that the files belong to.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub formats: Vec<String>,
     /// Digests of the files, by name with `/` between folders.
     pub files: BTreeMap<String, String>,
 }
@@ -61,7 +64,8 @@ impl Manifest {
     /// Creates the manifest of a folder in which nothing has been written yet.
     pub fn new(clip: ClipMark) -> Self {
         let genga = env!("CARGO_PKG_VERSION").into();
-        Self { schema: SCHEMA.into(), genga, clip, recipe: None, files: BTreeMap::new() }
+        let (formats, files) = (vec![], BTreeMap::new());
+        Self { schema: SCHEMA.into(), genga, clip, recipe: None, formats, files }
     }
 
     /// Computes a file's digest as listed in [`files`](Self::files).

@@ -5,13 +5,13 @@ use std::path::PathBuf;
 use clap::Args;
 use serde::Serialize;
 
-use crate::clip::Part;
+use crate::clip::{NamedClip, Part};
 use crate::console::{Table, Words, counted, two};
 use crate::corrections::Settings;
 use crate::failure::Failure;
+use crate::several::Several;
 use crate::{files, paths};
 
-use genga::motion::Clip;
 use genga::recipe::Recipe;
 use genga_lab::quality::{Compare, Comparison, Method, Row};
 use genga_lab::study::Noise;
@@ -86,19 +86,21 @@ pub(super) fn run(args: &CompareArgs, words: &Words) -> Result<(), Failure> {
     }
     paths::distinct(targets())?;
     let asked = asked(args)?;
-    let names = paths::names(&args.clips);
-    let clips: Vec<Clip> = args.part.read_all(&args.clips, words)?;
+    let mut several = Several::new(args.clips.len(), words);
+    let clips = args.part.read_all(&args.clips, &mut several, words)?;
     let counter = words.counting(clips.len(), "clips");
-    let mut comparisons = Vec::with_capacity(clips.len());
+    let (mut names, mut comparisons) = (Vec::new(), Vec::new());
     // Runs clips one after the other: each uses all cores, and parallel runs would make the times meaningless.
-    for ((name, path), clip) in names.iter().zip(&args.clips).zip(clips) {
-        let comparison = asked.run(clip).map_err(files::fault_of(path))?;
+    for NamedClip { name, path, clip } in clips {
+        let compared = asked.run(clip).map_err(files::fault_of(path));
+        let Some(comparison) = several.keep(compared)? else { continue };
         if comparison.koma > asked.longest {
             let longest = asked.longest;
             words.say(format_args!(
                 "{name}: optimal sets and polylines of more than {longest} koma are not looked for; see --trim"
             ));
         }
+        names.push(name);
         comparisons.push(comparison);
         counter.count();
     }
@@ -112,10 +114,11 @@ pub(super) fn run(args: &CompareArgs, words: &Words) -> Result<(), Failure> {
         files::write_json(path, &named)?;
     }
     if targets().any(|target| paths::is_stream(target)) {
-        return Ok(());
+        return several.end();
     }
     let pages = names.iter().zip(&comparisons).map(|(name, found)| page(name, found));
-    files::page_to_stdout(&pages.collect::<Vec<_>>().join("\n"))
+    files::page_to_stdout(&pages.collect::<Vec<_>>().join("\n"))?;
+    several.end()
 }
 
 fn asked(args: &CompareArgs) -> Result<Compare, Failure> {

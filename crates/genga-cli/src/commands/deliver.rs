@@ -100,7 +100,9 @@ pub(super) fn run(args: &DeliverArgs, words: &Words) -> Result<(), Failure> {
     written.said.notes.iter().for_each(|note| words.warn(note));
     unmade.iter().for_each(|warning| words.lose(warning));
     let (clip, stale) = (motion.of.clone(), written.stale);
-    let made = Made { clip, recipe: None, stale, adds: true, given: None };
+    let there = place.formats(&clip);
+    let made =
+        Made { clip, recipe: None, formats: formats.names(), stale, adds: true, given: None };
     let left = place.finish(bundle, made)?;
     for layer in &file.sheet.layers {
         let (name, koma, genga) = (&layer.name, layer.length(), layer.genga());
@@ -113,9 +115,11 @@ pub(super) fn run(args: &DeliverArgs, words: &Words) -> Result<(), Failure> {
     let notes = filled.iter().flat_map(|filled| &filled.notes);
     notes.for_each(|note| words.say(format_args!("into        追記       {note}")));
     left.notes().iter().for_each(|note| words.say(note));
-    if let Some(note) = sheets::of_another_timing(folder, sheet, &file.sheet) {
-        words.say(format_args!("note        {note}"));
-    }
+    let edited = of_sheet_before_edits(&there, &formats, &file)
+        .filter(|_| paths::is_same(sheet, &folder.join(sheets::SHEET)));
+    let timing = sheets::of_another_timing(folder, sheet, &file.sheet);
+    let notes = timing.into_iter().chain(edited);
+    notes.for_each(|note| words.say(format_args!("note        {note}")));
     words.say(format_args!("files       {}: {}", folder.display(), written.files.join(" ")));
     all_made(&unmade)
 }
@@ -124,6 +128,19 @@ pub(super) fn run(args: &DeliverArgs, words: &Words) -> Result<(), Failure> {
 fn read(args: &DeliverArgs, sheet: &Path, words: &Words) -> Result<SheetFile, Failure> {
     let way_out = "name the one that it came from with --drawings kick-genga/sheet.json";
     sheets::read(sheet, (args.drawings.as_deref(), way_out), words)
+}
+
+/// Names the formats of an edited sheet's folder that are not written now. They keep the timing that they had.
+fn of_sheet_before_edits(there: &[&str], now: &Formats, file: &SheetFile) -> Option<String> {
+    let is_old = |name: &&str| *name != "json" && !now.writes(name);
+    let old: Vec<&str> = there.iter().copied().filter(is_old).collect();
+    (!file.is_as_made() && !old.is_empty()).then(|| {
+        format!(
+            "the sheet was edited; formats of this folder that are not written now keep the timing that they had: \
+             --to {} writes them too",
+            old.join(",")
+        )
+    })
 }
 
 fn placed_wrongly(error: Error) -> Failure {

@@ -8,6 +8,7 @@ use crate::camera_args::{self, SeenArgs};
 use crate::clip::Part;
 use crate::console::{Words, counted};
 use crate::failure::Failure;
+use crate::several::Several;
 use crate::{files, paths};
 
 use genga::motion::Screen;
@@ -66,16 +67,17 @@ pub(super) struct OmitArgs {
 pub(super) fn run(args: &OmitArgs, words: &Words) -> Result<(), Failure> {
     check_files(args)?;
     let mut rows = Vec::with_capacity(args.clips.len());
+    let mut several = Several::new(args.clips.len(), words);
     for (name, path) in paths::names(&args.clips).into_iter().zip(&args.clips) {
         if args.clips.len() > 1 {
             words.say(format_args!("clip        動き       {name}"));
         }
-        rows.push(one(args, (name, path), words)?);
+        rows.extend(several.keep(one(args, (name, path), words))?);
     }
-    match &args.table {
-        Some(path) => files::write(path, genga_files::omission_csv(&rows)?.as_bytes()),
-        None => Ok(()),
+    if let Some(path) = &args.table {
+        files::write(path, genga_files::omission_csv(&rows)?.as_bytes())?;
     }
+    several.end()
 }
 
 /// Refuses to overwrite an input, and to write one file of several clips.

@@ -18,7 +18,7 @@ use crate::{camera_args, cut_args, files, kept, outcomes, part_of_take, paths, p
 use genga::edits::Edits;
 use genga::pipeline::Breakdown;
 use genga::recipe::Recipe;
-use genga_files::{GaitReport, LayerReport, LoopReport, Report, Run, run_notes};
+use genga_files::{ClipMark, GaitReport, LayerReport, LoopReport, Report, Run, run_notes};
 
 #[derive(Debug, Args)]
 #[command(after_help = help(), after_long_help = long_help(), disable_help_flag = true, arg = help_flag())]
@@ -77,7 +77,6 @@ pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
     let name = paths::stem(clip);
     paths::check_folder(args.out.as_deref(), "run", "; genga keys writes a table there")?;
     let folder = args.out.clone().unwrap_or_else(|| format!("{name}-genga").into());
-    spare(args, &formats, &folder, &name)?;
     spare_batch(&folder)?;
 
     let (working, mut notes) = (words.working(), Vec::new());
@@ -89,6 +88,9 @@ pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
     notes.extend(run_notes::of_cycle(engine.clip(), plan.recipe.r#loop));
     let place = Folder::look(&folder, args.formats.over());
     place.check(&of)?;
+    let again = again(args, &place, &of, &formats);
+    let formats = formats.with(&again);
+    spare(args, &formats, &folder, &name)?;
     let recipe = args.plan.corrections.settings.recipe.as_deref().and_then(Path::parent);
     let beside = recipe.filter(|beside| Folder::look(beside, args.formats.over()).is_of(&of));
     let own = place.is_of(&of).then_some(&*folder);
@@ -129,6 +131,12 @@ pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
     drop(working);
 
     summary(words, &name, &report);
+    if !again.is_empty() {
+        words.say(format_args!(
+            "note        also written, as the folder has them: {} (--deliver names others)",
+            again.join(", ")
+        ));
+    }
     kept_corrections.iter().for_each(|line| words.say(format_args!("note        {line}")));
     outcomes::of_corrections(edits, &breakdown)
         .iter()
@@ -140,6 +148,20 @@ pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
     left.notes().iter().for_each(|note| words.say(format_args!("note        {note}")));
     words.say(format_args!("files       {}: {}", folder.display(), files.join(" ")));
     all_made(&unmade)
+}
+
+/// Names of the other formats that the folder has of this clip. A run that names no format writes them again: their
+/// timing would not be that of the new sheet.
+fn again(
+    args: &RunArgs,
+    place: &Folder<'_>,
+    clip: &ClipMark,
+    formats: &Formats,
+) -> Vec<&'static str> {
+    if args.fresh || !args.deliver.is_empty() || args.formats.asks_for_bvh() {
+        return vec![];
+    }
+    place.formats(clip).into_iter().filter(|name| !formats.writes(name)).collect()
 }
 
 /// Refuses to overwrite an input or an edited sheet.

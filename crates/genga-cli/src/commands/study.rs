@@ -9,14 +9,14 @@ use clap::Args;
 use clap::builder::PossibleValuesParser;
 use rayon::prelude::*;
 
-use crate::clip::Part;
+use crate::clip::{NamedClip, Part};
 use crate::console::{Words, counted};
 use crate::corrections::Settings;
 use crate::failure::Failure;
+use crate::several::Several;
 use crate::{files, paths};
 
 use genga::error::Error;
-use genga::motion::Clip;
 use genga::recipe::{Kind, Knob, Recipe};
 use genga_lab::study::{self, Axis, Grid, Measure, Plateau, Study};
 use genga_plot::{HeatMap, StudyPlot};
@@ -149,10 +149,10 @@ pub(super) fn run(args: &StudyArgs, words: &Words) -> Result<(), Failure> {
     if args.heat.is_some() {
         HeatMap::fits(&study.x, study.y.as_ref())?;
     }
-    let clips = args.part.read_all(&args.clips, words)?;
-    let rates: Vec<_> = clips.iter().map(Clip::rate).collect();
-    let grids = swept(&study, clips, &args.clips, words)?;
-    let names = paths::names(&args.clips);
+    let mut several = Several::new(args.clips.len(), words);
+    let clips = args.part.read_all(&args.clips, &mut several, words)?;
+    let rates: Vec<_> = clips.iter().map(|named| named.clip.rate()).collect();
+    let (names, grids) = swept(&study, clips, &mut several, words)?;
     let tolerance = args.stability.then_some(args.tolerance);
     let plateaus = tolerance.map(|koma| Plateaus::new(&grids, koma));
     if let Some(path) = &args.plot {
@@ -192,7 +192,7 @@ pub(super) fn run(args: &StudyArgs, words: &Words) -> Result<(), Failure> {
     if !files.is_empty() {
         words.say(format_args!("files       {}", files.join(" ")));
     }
-    Ok(())
+    several.end()
 }
 
 /// What is said of turns, for the report of a run calls those of the joints `turns` too.
@@ -237,13 +237,19 @@ fn say_plateaus(words: &Words, names: &[String], grids: &[Grid], of_all: &Platea
 }
 
 fn sentence(grid: &Grid, koma: f64, plateau: Option<&Plateau>) -> String {
-    let same = if koma == 0.0 {
-        "the very same keys".to_owned()
-    } else {
-        format!("the same keys within {koma} koma")
-    };
+    let is_exact = koma == 0.0;
     let Some(plateau) = plateau else {
-        return format!("{same} in no two cells side by side");
+        return match is_exact {
+            true => "the very same keys in no two cells side by side".into(),
+            false => format!("the same keys within {koma} koma in no two cells side by side"),
+        };
+    };
+    let same = match is_exact {
+        true => "the very same keys at".into(),
+        false => {
+            let seed = plateau.seed_words(grid);
+            format!("each key within {koma} koma of its place at {seed}, over")
+        }
     };
     let own = match grid.own {
         None => "the recipe\u{2019}s own settings lie outside the study",
@@ -251,7 +257,7 @@ fn sentence(grid: &Grid, koma: f64, plateau: Option<&Plateau>) -> String {
         Some(_) => "the recipe\u{2019}s own settings stand beside it",
     };
     let (place, keys) = (plateau.words(grid), counted(plateau.keys, "key"));
-    format!("{same} at {place}, {keys} between the first and the last drawing; {own}")
+    format!("{same} {place}, {keys} between the first and the last drawing; {own}")
 }
 
 fn asked(args: &StudyArgs) -> Result<Study, Failure> {
@@ -326,17 +332,24 @@ fn usually_shown(study: &Study) -> Measure {
     if study.measures.contains(&wanted) { wanted } else { study.measures[0] }
 }
 
+/// Runs the study of every clip. Returns the names of the clips and their grids.
 fn swept(
     study: &Study,
-    clips: Vec<Clip>,
-    paths: &[PathBuf],
+    clips: Vec<NamedClip<'_>>,
+    several: &mut Several<'_>,
     words: &Words,
-) -> Result<Vec<Grid>, Failure> {
+) -> Result<(Vec<String>, Vec<Grid>), Failure> {
     let counter = words.counting(study.len() * clips.len(), "cells");
-    let grid = |(clip, path): (Clip, &PathBuf)| {
-        study.run(clip, || counter.count()).map_err(files::fault_of(path))
+    let grid = |NamedClip { name, path, clip }: NamedClip<'_>| {
+        let grid = study.run(clip, || counter.count()).map_err(files::fault_of(path))?;
+        Ok((name, grid))
     };
-    let grids: Vec<_> = clips.into_par_iter().zip(paths).map(grid).collect();
-    // Returns the first error in the order of the clips, whichever thread failed first.
-    grids.into_iter().collect()
+    let grids: Vec<_> = clips.into_par_iter().map(grid).collect();
+    drop(counter);
+    // What fails is told in the order of the clips, whichever thread failed first.
+    let mut kept = (Vec::new(), Vec::new());
+    for grid in grids {
+        kept.extend(several.keep(grid)?);
+    }
+    Ok(kept)
 }

@@ -55,6 +55,16 @@ impl Plateau {
         self.cells.binary_search(&at).is_ok()
     }
 
+    /// Describes in words the settings of the cell with which all others are compared.
+    pub fn seed_words(&self, grid: &Grid) -> String {
+        let value = |axis: &Axis, at: usize| format!("{} {}", axis.name(), axis.values()[at]);
+        let x = value(&grid.x, self.seed / grid.rows());
+        match &grid.y {
+            Some(axis) => format!("{x}, {}", value(axis, self.seed % grid.rows())),
+            None => x,
+        }
+    }
+
     /// Describes in words the settings it covers and its number of cells.
     pub fn words(&self, grid: &Grid) -> String {
         let columns = ends(self.cells.iter().map(|at| at / grid.rows()));
