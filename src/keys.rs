@@ -183,6 +183,8 @@ pub struct Candidate {
 pub struct LayerKeys {
     /// Keys by frame, found ones at least a koma apart. The clip's ends are not included.
     pub keys: Vec<Key>,
+    /// The keys that would be there without corrections, or of the frozen ones. Phases of gaits are among them.
+    pub free: Vec<Key>,
     /// Walls by frame.
     pub walls: Vec<Wall>,
     /// Rests (止め) from first to last frame, both included. A rest that touches an end of the clip begins or ends there.

@@ -449,8 +449,13 @@ impl Choose {
         (turns, weights): (&[Vec<Turn>], &[f64]),
         (ends, edits, apart): ((Frame, Frame), &Edits, f64),
     ) -> LayerKeys {
+        let walks =
+            |edits| Walks::new(gaits, Drawable { found: &found.keys, edits, koma: apart, ends });
+        let mut free = found.keys.clone();
+        let bare = Edits { frozen: edits.frozen.clone(), ..Edits::default() };
+        walks(&bare).lay(&mut free, &found.keys, &bare, apart);
+        let walks = walks(edits);
         let mut keys = chosen.keys.clone();
-        let walks = Walks::new(gaits, Drawable { found: &found.keys, edits, koma: apart, ends });
         walks.give(&mut keys, edits, apart);
         moved(&mut keys, edits, apart);
         walks.lay(&mut keys, &found.keys, edits, apart);
@@ -462,6 +467,6 @@ impl Choose {
         let rests = rest::rest_frames(chords, rests);
         let holds_end = self.at_rests == AtRests::Keys;
         let (walls, gaits) = (walls.to_vec(), walks.into_regular());
-        LayerKeys { keys, walls, rests, holds_end, gaits, over_limit }
+        LayerKeys { keys, free, walls, rests, holds_end, gaits, over_limit }
     }
 }

@@ -66,7 +66,9 @@ pub struct WalkStep {
     pub next: f64,
     /// Frame that shows each phase and, last, the next contact; `None` if it lies outside the clip.
     pub frames: Vec<Option<Frame>>,
-    /// Whether a person corrects it. Then it keeps the keys found in it and gets no phases.
+    /// Whether a person forbids each of these frames. Then no genga shows it; the other phases stay.
+    pub forbidden: Vec<bool>,
+    /// Whether a person corrects it otherwise, or forbids all of it. Then it keeps the keys found in it and gets no phases.
     pub is_corrected: bool,
 }
 
@@ -162,8 +164,7 @@ impl Walks {
             true => !is_frozen_phase(key),
             false => !is_within(key.frame),
         });
-        let mut frames: Vec<Frame> =
-            steps().flat_map(|step| &step.frames).copied().flatten().collect();
+        let mut frames: Vec<Frame> = steps().flat_map(WalkStep::allowed).collect();
         frames.sort_unstable();
         frames.dedup();
         let is_free =
@@ -179,6 +180,12 @@ impl Walks {
 }
 
 impl WalkStep {
+    /// Returns the frames that genga show.
+    fn allowed(&self) -> impl Iterator<Item = Frame> {
+        let frames = self.frames.iter().zip(&self.forbidden);
+        frames.filter_map(|(frame, is_forbidden)| frame.filter(|_| !is_forbidden))
+    }
+
     /// Whether a frame is in the step, or nearer to it than `near` frames.
     fn covers(&self, frame: Frame, near: f64) -> bool {
         let [from, to] = bounds(&self.frames);

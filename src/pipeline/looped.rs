@@ -315,6 +315,7 @@ impl Round {
             },
             keys: LayerKeys {
                 keys: self.keys(&keys.keys),
+                free: self.keys(&keys.free),
                 walls: walls(&keys.walls),
                 rests: keys.rests.iter().filter_map(rest).collect(),
                 holds_end: false,

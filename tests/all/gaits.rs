@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::fs;
 
-use genga::edits::{Edits, Pin};
+use genga::edits::{Edits, Forbidden, Pin};
 use genga::keys::{AtGaits, Choose, Origin, WalkStep};
 use genga::motion::{Clip, Gait, Step};
 use genga::pipeline::Engine;
@@ -276,6 +276,37 @@ fn a_pin_breaks_its_own_step_alone() {
                     assert_eq!(after.steps.iter().flatten().collect::<Vec<_>>(), left, "{at}");
                 }
             }
+        }
+    });
+}
+
+#[test]
+fn a_forbidden_phase_becomes_an_inbetween_and_all_else_stays() {
+    clips::with(["cmu-07_01-walk"], |[path]| {
+        let clip = clips::read(&path);
+        let sheet = |forbidden: Vec<Forbidden>| {
+            let mut engine = Engine::new(clip.clone()).unwrap();
+            let edits = Edits { forbidden, ..Edits::default() };
+            let breakdown = engine.run(&Recipe::default(), &edits).unwrap();
+            let layer = &breakdown.sheet.layers[0];
+            let drawing = |(koma, shown): (usize, Exposure)| {
+                let drawing = &layer.drawings[shown.drawing];
+                (koma, drawing.source.place(), drawing.role)
+            };
+            layer.timed().map(drawing).collect::<Vec<_>>()
+        };
+        let before = sheet(vec![]);
+        let is_genga = |(_, _, role): &(usize, f64, Role)| *role == Role::Genga;
+        let genga = || before.iter().filter(|drawing| is_genga(drawing));
+        assert!(genga().count() > 16);
+        for (koma, place, _) in genga().copied() {
+            let after = sheet(vec![Forbidden::one(Frame(place as usize))]);
+            assert_eq!(before.len(), after.len(), "{place}");
+            let (now, then) = (after.iter().filter(|drawing| is_genga(drawing)), genga());
+            let then = then.filter(|drawing| drawing.0 != koma);
+            assert!(now.eq(then), "{place}: {after:?}");
+            let there = after.iter().find(|drawing| drawing.0 == koma).unwrap();
+            assert_eq!(there.2, Role::Inbetween, "{place}");
         }
     });
 }

@@ -79,17 +79,13 @@ impl Outcomes<'_> {
 
     fn of_ban(&self, ban: Forbidden) -> Option<(Frame, String)> {
         let koma = self.clock.frames_in_koma();
-        let reached = self.own.uncorrected.iter().filter(|key| ban.reaches(key.frame, koma));
+        // Beside a forbidden phase of a step, others stay.
+        let is_meant = |key: &&Key| {
+            ban.reaches(key.frame, koma) && (!self.has(key.frame) || self.is_set(key.frame))
+        };
+        let reached = self.own.keys.free.iter().filter(is_meant);
         let reached: Vec<Frame> = reached.map(|key| key.frame).collect();
-        let mut outcomes: Vec<String> = reached.iter().map(|at| self.of_banned(*at)).collect();
-        // A step of a gait loses all its phases.
-        let mut others: Vec<Frame> = reached.iter().flat_map(|at| self.lost_near(*at)).collect();
-        others.retain(|at| !ban.reaches(*at, koma));
-        others.sort_unstable();
-        others.dedup();
-        if !others.is_empty() {
-            outcomes.push(format!("with it go the genga at {}", listed(&others)));
-        }
+        let outcomes: Vec<String> = reached.iter().map(|at| self.of_banned(*at)).collect();
         let line = self.line("forbid", ban, &outcomes.join(", "));
         (!outcomes.is_empty()).then_some((ban.from, line))
     }
@@ -102,7 +98,7 @@ impl Outcomes<'_> {
         }
         match self.instead_of(frame).and_then(|to| Some((to, self.number(to)?))) {
             Some((to, number)) => {
-                let others = self.own.uncorrected.iter().map(|key| key.frame);
+                let others = self.own.keys.free.iter().map(|key| key.frame);
                 let length = self.sheet.length();
                 let none = Forbidden::instead_of(frame, others, &self.clock, length);
                 format!("genga {number} moved from {frame} to {to} (--forbid {none} leaves none)")
@@ -139,9 +135,14 @@ impl Outcomes<'_> {
         self.own.keys.keys.iter().any(|key| key.frame == frame)
     }
 
+    /// Whether a person set the key at a frame.
+    fn is_set(&self, frame: Frame) -> bool {
+        self.own.keys.keys.iter().any(|key| key.frame == frame && key.origin.is_set())
+    }
+
     /// Whether a key was at a frame before the corrections.
     fn is_found(&self, frame: Frame) -> bool {
-        self.own.uncorrected.iter().any(|key| key.frame == frame)
+        self.own.keys.free.iter().any(|key| key.frame == frame)
     }
 
     /// The keys next to a frame, of those that are there with and without corrections.
@@ -154,7 +155,7 @@ impl Outcomes<'_> {
 
     /// Keys that are gone since the corrections.
     fn lost(&self) -> impl Iterator<Item = Frame> {
-        self.own.uncorrected.iter().map(|key| key.frame).filter(|at| !self.has(*at))
+        self.own.keys.free.iter().map(|key| key.frame).filter(|at| !self.has(*at))
     }
 
     /// Whether a key was moved away from a frame.

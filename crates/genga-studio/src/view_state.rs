@@ -159,7 +159,7 @@ impl<'a> Shown<'a> {
             |frame: Frame| self.taken.iter().rfind(|own| (own.ban, own.frame) == (ban, frame));
         let koma =
             |frame| seen(frame).map_or_else(|| column.clock.koma_from_frame(frame), |own| own.koma);
-        let taken = column.found.uncorrected.iter().map(|key| key.frame).filter(is_its);
+        let taken = column.found.keys.free.iter().map(|key| key.frame).filter(is_its);
         taken.map(|frame| (koma(frame), frame)).collect()
     }
 

@@ -24,11 +24,13 @@ impl Drawable<'_> {
         let instants: Vec<f64> =
             row.iter().flat_map(|(_, instants)| instants.iter().copied()).chain(last).collect();
         let frames = self.frames(&instants);
+        let forbidden = self.forbidden(&frames);
         let mut from = 0;
         for (step, instants) in row {
             let to = from + instants.len();
             step.frames = frames[from..=to].to_vec();
-            step.is_corrected = self.corrects(&step.frames);
+            step.forbidden = forbidden[from..=to].to_vec();
+            step.is_corrected = self.corrects(step);
             from = to;
         }
     }
@@ -62,21 +64,37 @@ impl Drawable<'_> {
     }
 
     /// Whether a person corrects the step that shows these frames. Such a step keeps the keys found in it.
-    fn corrects(&self, frames: &[Option<Frame>]) -> bool {
-        let Edits { pins, moves, forbidden, frozen, only_pins, .. } = self.edits;
+    fn corrects(&self, step: &WalkStep) -> bool {
+        let Edits { pins, moves, frozen, only_pins, .. } = self.edits;
+        let frames = &step.frames;
         let set = pins.iter().map(|pin| pin.frame);
         let set = set.chain(moves.iter().flat_map(|moved| [moved.from, moved.to]));
-        let shown = || frames.iter().flatten();
-        let is_forbidden =
-            shown().any(|frame| forbidden.iter().any(|range| range.reaches(*frame, self.koma)));
+        let is_forbidden = frames.iter().any(Option::is_some) && step.allowed().next().is_none();
         // Next to the clip's ends, a sheet has no room for a genga.
         let room = NEAR * self.koma + 1.0;
         let far =
-            |frame: &&Frame| (self.ends.1.0 - frame.0).min(frame.0 - self.ends.0.0) as f64 > room;
+            |frame: &Frame| (self.ends.1.0 - frame.0).min(frame.0 - self.ends.0.0) as f64 > room;
         let was_there =
-            frozen.is_empty() || shown().filter(far).all(|frame| frozen.contains(frame));
+            frozen.is_empty() || step.allowed().filter(far).all(|frame| frozen.contains(&frame));
         let reaches = |frame: Frame| has(frames, frame) || self.takes_contact(frames, frame);
         *only_pins || !was_there || is_forbidden || set.into_iter().any(reaches)
+    }
+
+    /// Returns whether a person forbids each frame of a row. A single forbidden frame means the nearest of them alone, as
+    /// phases stand as near to each other as it reaches.
+    fn forbidden(&self, frames: &[Option<Frame>]) -> Vec<bool> {
+        let mut are_forbidden = vec![false; frames.len()];
+        for range in &self.edits.forbidden {
+            let away = |frame: Option<Frame>| {
+                frame.filter(|at| range.reaches(*at, self.koma)).map(|at| range.distance(at))
+            };
+            let nearest = frames.iter().filter_map(|frame| away(*frame)).min();
+            let means = |away: usize| !range.is_one() || Some(away) == nearest;
+            for (is_forbidden, frame) in are_forbidden.iter_mut().zip(frames) {
+                *is_forbidden |= away(*frame).is_some_and(means);
+            }
+        }
+        are_forbidden
     }
 
     /// Whether a key at a frame takes the place of a step's contact, being nearer than a koma.

@@ -127,7 +127,13 @@ fn gaits_that_meet_share_the_frame_of_their_contact() {
 
 #[test]
 fn a_step_that_shows_nothing_of_the_clip_takes_no_key() {
-    let step = WalkStep { contact: 95.0, next: 108.0, frames: vec![None; 5], is_corrected: false };
+    let step = WalkStep {
+        contact: 95.0,
+        next: 108.0,
+        frames: vec![None; 5],
+        forbidden: vec![false; 5],
+        is_corrected: false,
+    };
     assert!(!step.covers(Frame(0), KOMA) && !has(&step.frames, Frame(450)));
     let begun = WalkStep { frames: vec![None, None, None, None, Some(Frame(40))], ..step };
     assert!(begun.covers(Frame(10), KOMA) && has(&begun.frames, Frame(10)));
@@ -141,9 +147,28 @@ fn a_correction_breaks_the_step_in_which_it_is_and_no_other() {
     assert_eq!(koma_of(&laid_with, Origin::Pinned), [33.0]);
     assert_eq!(koma_of(&laid_with, Origin::Fill), [32.6, 35.4], "what was found is there again");
     assert_eq!(koma_of(&laid_with, Origin::Step), all_but(2..3));
-    let forbidden = Forbidden { from: Frame(5 * 34), past: Frame(5 * 34 + 1) };
-    let laid_with = laid(&Edits { forbidden: vec![forbidden], ..Edits::default() });
-    assert_eq!(koma_of(&laid_with, Origin::Step), all_but(2..3));
+}
+
+#[test]
+fn a_forbidden_phase_goes_alone_and_a_step_of_none_keeps_what_was_found() {
+    let laid_without = |ban: Forbidden| laid(&Edits { forbidden: vec![ban], ..Edits::default() });
+    let forbid_frame = |frame: usize| laid_without(Forbidden::one(Frame(frame)));
+    let forbid = |from: usize, past: usize| {
+        laid_without(Forbidden { from: Frame(5 * from), past: Frame(5 * past) })
+    };
+    let without = |gone: Range<f64>| -> Vec<f64> {
+        all_but(0..0).into_iter().filter(|koma| !gone.contains(koma)).collect()
+    };
+    let is_passing = 34.0;
+    let laid_with = forbid(34, 35);
+    assert_eq!(koma_of(&laid_with, Origin::Step), without(is_passing..is_passing + 0.1));
+    assert!(koma_of(&laid_with, Origin::Fill).is_empty(), "no key comes in its place");
+    // The contact at 28.8 is within two koma too: a single frame means the nearest alone, down.
+    assert_eq!(koma_of(&forbid_frame(5 * 30), Origin::Step), without(31.0..31.1));
+    // Both steps go without the contact that they share.
+    assert_eq!(koma_of(&forbid(28, 29), Origin::Step), without(28.0..29.0));
+    // All phases of the third step; those of its neighbours stay.
+    assert_eq!(koma_of(&forbid(29, 41), Origin::Step), without(28.0..42.0));
 }
 
 #[test]

@@ -150,9 +150,11 @@ impl Placing {
         let is_steady = is_one(&whole);
         let mut at = begin;
         let mut begins = Vec::new();
-        for exposure in self.exposures.of_step((end - begin).max(0) as usize) {
+        let exposures = self.exposures.of_step((end - begin).max(0) as usize);
+        for (exposure, is_forbidden) in exposures.into_iter().zip(&step.forbidden) {
             begins.push(at);
-            for (from, to) in exposure.cuts().skip(1) {
+            // An inbetween takes the place of a forbidden genga.
+            for (from, to) in exposure.cuts().skip(usize::from(!is_forbidden)) {
                 if let Some(koma) = on_sheet(at + from as isize) {
                     steps.inbetweens.insert(koma, to - from);
                 }
