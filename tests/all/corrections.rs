@@ -197,6 +197,10 @@ fn the_summary_says_what_each_correction_did() {
             "move 71:74: genga 12",
         ]
     );
+    for (to, outcome) in [(28, "genga 3 in place of 28"), (30, "genga 4, past the genga at 28")] {
+        let said = place.said(&format!("run data/kick.bvh --move 21:{to} --fresh --out a"));
+        assert!(said.contains(&format!("move 21:{to}: {outcome}\n")), "{said}");
+    }
     let layers = place.said("run data/kick.bvh --layers limbs --pin B/42 --out b");
     assert!(layers.contains("修正       pin B/42: genga "), "{layers}");
     assert_eq!(layers.matches("修正").count(), 1, "{layers}");

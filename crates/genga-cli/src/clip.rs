@@ -101,7 +101,7 @@ pub(super) struct Reading {
     /// Memory limit in GiB.
     ///
     /// Of the work [default: 1 plus 18 times the values of the clip], and of input from a pipe [default: 1].
-    #[arg(long, value_name = "GIB", value_parser = gib, help_heading = READING)]
+    #[arg(long, value_name = "GIB", allow_negative_numbers = true, value_parser = gib, help_heading = READING)]
     memory: Option<f64>,
 }
 

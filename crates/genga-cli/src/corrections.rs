@@ -42,27 +42,27 @@ pub(super) struct Corrections {
     ///
     /// Each is [LAYER/]FRAME[:NAME][@WEIGHT], with a name and a spacing weight: 200:hit@0. B/150 pins only in layer B;
     /// --forbid and --move accept a layer too.
-    #[arg(long, value_name = "FRAME,…", value_delimiter = ',', help_heading = CORRECTIONS)]
+    #[arg(long, value_name = "FRAME,…", allow_negative_numbers = true, value_delimiter = ',', help_heading = CORRECTIONS)]
     pin: Vec<String>,
     /// No keys near these frames: --forbid 12,120..140
     ///
     /// Near is within two koma. A range excludes its last frame.
-    #[arg(long, value_name = "FRAME,…", value_delimiter = ',', help_heading = CORRECTIONS)]
+    #[arg(long, value_name = "FRAME,…", allow_negative_numbers = true, value_delimiter = ',', help_heading = CORRECTIONS)]
     forbid: Vec<String>,
     /// Draw the key near FROM at TO: --move 41:42,80:84
     ///
     /// A name and a spacing weight may follow, as in --pin: 80:84:hit@0.2
-    #[arg(long = "move", value_name = "FROM:TO,…", value_delimiter = ',', help_heading = CORRECTIONS)]
+    #[arg(long = "move", value_name = "FROM:TO,…", allow_negative_numbers = true, value_delimiter = ',', help_heading = CORRECTIONS)]
     moves: Vec<String>,
     /// How many koma drawings stay: --hold 42:4,60:1
     ///
     /// Each drawing is given by the source frame that it shows, in all layers.
-    #[arg(long = "hold", value_name = "FRAME:KOMA,…", value_delimiter = ',', help_heading = CORRECTIONS)]
+    #[arg(long = "hold", value_name = "FRAME:KOMA,…", allow_negative_numbers = true, value_delimiter = ',', help_heading = CORRECTIONS)]
     holds: Vec<String>,
     /// Frames at which actions begin: --split 310,774
     ///
     /// They replace the detected ones, which genga split lists.
-    #[arg(long, value_name = "FRAME,…", value_delimiter = ',', value_parser = frame, help_heading = CORRECTIONS)]
+    #[arg(long, value_name = "FRAME,…", allow_negative_numbers = true, value_delimiter = ',', value_parser = frame, help_heading = CORRECTIONS)]
     split: Vec<Frame>,
     /// Add a spoken line: --say "120..210:アキ:えい！" (repeatable).
     ///

@@ -40,6 +40,15 @@ pub(super) fn of_corrections(edits: &Edits, breakdown: &Breakdown<'_>) -> Vec<St
     lines
 }
 
+fn frames(keys: &[Key]) -> impl Iterator<Item = Frame> {
+    keys.iter().map(|key| key.frame)
+}
+
+/// Whether a frame is between two others, whichever comes first.
+fn lies_between(frame: Frame, from: Frame, to: Frame) -> bool {
+    from.min(to) < frame && frame < from.max(to)
+}
+
 /// Lists frames.
 fn listed(frames: &[Frame]) -> String {
     frames.iter().map(Frame::to_string).collect::<Vec<_>>().join(" and ")
@@ -112,7 +121,20 @@ impl Outcomes<'_> {
         let is_moved = |key: &&Key| key.origin == Origin::Moved { from };
         self.own.keys.keys.iter().find(is_moved)?;
         let number = self.number(to)?;
-        Some((from, self.line("move", format!("{from}:{to}"), &format!("genga {number}"))))
+        let koma = self.clock.frames_in_koma();
+        let is_gone = |at: &Frame| {
+            *at != from && (at.0.abs_diff(to.0) as f64) < koma && (*at == to || !self.has(*at))
+        };
+        let gone: Vec<Frame> = frames(&self.own.keys.free).filter(is_gone).collect();
+        let passed: Vec<Frame> =
+            frames(&self.own.keys.keys).filter(|at| lies_between(*at, from, to)).collect();
+        let mut outcome = format!("genga {number}");
+        for (what, frames) in [(" in place of", gone), (", past the genga at", passed)] {
+            if !frames.is_empty() {
+                outcome += &format!("{what} {}", listed(&frames));
+            }
+        }
+        Some((from, self.line("move", format!("{from}:{to}"), &outcome)))
     }
 
     /// The number on the sheet of the genga that shows a frame.

@@ -70,8 +70,8 @@ impl Table {
         let frame = at("source_frame").ok_or_else(|| {
             wrong_at(
                 (1, 1),
-                "there is no column source_frame; keys are read from a keys.csv, drawings.csv or \
-                 sheet.csv as genga writes it, from a sheet.json and from an XDTS timesheet",
+                "there is no column source_frame; of a list of frames that word is the first line. Keys are read from a \
+                 keys.csv, drawings.csv or sheet.csv as genga writes it too, from a sheet.json and from an XDTS timesheet",
             )
         })?;
         Ok(Self {

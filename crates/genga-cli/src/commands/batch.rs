@@ -56,7 +56,7 @@ pub(super) struct BatchArgs {
     #[arg(long, value_name = "DIR", num_args = 1.., conflicts_with_all = ["clips", "shard"])]
     join: Vec<PathBuf>,
     /// Number of clips processed at the same time [default: one per core].
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = clap::value_parser!(u16).range(1..))]
     jobs: Option<u16>,
     /// Write one archive, clips.zip, instead of one folder per clip. --join merges the archives of all parts.
     #[arg(long)]

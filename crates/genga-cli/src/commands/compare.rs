@@ -28,10 +28,10 @@ pub(super) struct CompareArgs {
     settings: Settings,
     /// Number of keys that each method chooses, not counting both ends of the clip: --keys 8,16,32 [default: as many
     /// as the recipe finds, half and double].
-    #[arg(long, value_name = "N,…", value_delimiter = ',', value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N,…", allow_negative_numbers = true, value_delimiter = ',', value_parser = clap::value_parser!(u32).range(1..))]
     keys: Vec<u32>,
     /// Noise on every rotation, in degrees, under which keys are chosen a second time; 0 for none.
-    #[arg(long, value_name = "DEGREES", default_value_t = 0.1)]
+    #[arg(long, value_name = "DEGREES", allow_negative_numbers = true, default_value_t = 0.1)]
     noise: f64,
     /// Report how long each method took; times differ from run to run.
     #[arg(long)]

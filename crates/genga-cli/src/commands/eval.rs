@@ -27,7 +27,7 @@ pub(super) struct EvalArgs {
     #[arg(long, value_name = "KEYS")]
     reference: Option<PathBuf>,
     /// Largest distance between a genga and the reference key that it matches, in koma.
-    #[arg(long, value_name = "KOMA", default_value_t = 1.0, requires = "reference", value_parser = tolerance)]
+    #[arg(long, value_name = "KOMA", allow_negative_numbers = true, default_value_t = 1.0, requires = "reference", value_parser = tolerance)]
     tolerance: f64,
     /// Measures as JSON; - is stdout, in place of the table.
     #[arg(long, value_name = "FILE|-")]

@@ -29,14 +29,14 @@ pub(super) struct OmitArgs {
     seen: SeenArgs,
     /// Number of the fastest drawings to leave out: a count (4) or a share of the koma (4%), by which at most 6 go. The
     /// second paper: 4, and 6 for the swing.
-    #[arg(long, value_name = "N", default_value = "4")]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, default_value = "4")]
     naka_nashi: Amount,
     /// Number of the slowest drawings to replace by holds: a count (33) or a share of the inbetweens (1/3). The
     /// second paper: 33 for the pitch, 30 for the kick, 29 for tennis, 40 for the swing.
-    #[arg(long, value_name = "N|SHARE", default_value = "1/3")]
+    #[arg(long, value_name = "N|SHARE", allow_negative_numbers = true, default_value = "1/3")]
     koma_dori: Amount,
     /// Longest hold, in koma.
-    #[arg(long, value_name = "K", default_value_t = 4)]
+    #[arg(long, value_name = "K", allow_negative_numbers = true, default_value_t = 4)]
     max_hold: usize,
     /// Leave the fastest drawings out all at once, by their initial speed (for comparison).
     #[arg(long)]

@@ -62,7 +62,7 @@ pub(super) struct StudyArgs {
     #[arg(long)]
     stability: bool,
     /// Largest move of a key that still counts as the same, in koma of the sheet.
-    #[arg(long, value_name = "KOMA", default_value_t = 1.0, requires = "stability", value_parser = tolerance)]
+    #[arg(long, value_name = "KOMA", allow_negative_numbers = true, default_value_t = 1.0, requires = "stability", value_parser = tolerance)]
     tolerance: f64,
     /// CSV file of the table; - is stdout.
     #[arg(long, short, value_name = "FILE.csv", default_value = "-")]

@@ -61,7 +61,7 @@ pub(super) struct TrialArgs {
     #[arg(long, value_name = "NAME,…", value_delimiter = ',', value_parser = condition)]
     conditions: Option<Vec<Option<Condition>>>,
     /// Number of pairs that a person sees for each question.
-    #[arg(long, value_name = "N", default_value_t = Trial::default().pairs)]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, default_value_t = Trial::default().pairs)]
     pairs: usize,
     /// Camera of all films: front, side, three-quarter or auto.
     #[arg(long, value_name = "WORD", default_value_t = Camera::default())]
@@ -76,7 +76,13 @@ pub(super) struct TrialArgs {
     #[arg(long, value_name = "ANSWERS.csv", num_args = 1.., conflicts_with_all = ["clips", "out", "sheet", "conditions"])]
     read: Vec<PathBuf>,
     /// Seed of the bootstrap.
-    #[arg(long, value_name = "N", default_value_t = 0, requires = "read")]
+    #[arg(
+        long,
+        value_name = "N",
+        allow_negative_numbers = true,
+        default_value_t = 0,
+        requires = "read"
+    )]
     seed: u64,
     /// Evaluation as JSON; - is stdout, in place of the tables.
     #[arg(long, value_name = "FILE|-", requires = "read")]
