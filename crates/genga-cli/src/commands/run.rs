@@ -77,6 +77,7 @@ pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
     let name = paths::stem(clip);
     paths::check_folder(args.out.as_deref(), "run", "; genga keys writes a table there")?;
     let folder = args.out.clone().unwrap_or_else(|| format!("{name}-genga").into());
+    spare(args, &formats, &folder, &name)?;
     spare_batch(&folder)?;
 
     let (working, mut notes) = (words.working(), Vec::new());
@@ -90,7 +91,6 @@ pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
     place.check(&of)?;
     let again = again(args, &place, &of, &formats);
     let formats = formats.with(&again);
-    spare(args, &formats, &folder, &name)?;
     let recipe = args.plan.corrections.settings.recipe.as_deref().and_then(Path::parent);
     let beside = recipe.filter(|beside| Folder::look(beside, args.formats.over()).is_of(&of));
     let own = place.is_of(&of).then_some(&*folder);
@@ -150,8 +150,8 @@ pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
     all_made(&unmade)
 }
 
-/// Names of the other formats that the folder has of this clip. A run that names no format writes them again: their
-/// timing would not be that of the new sheet.
+/// Names of the other formats that the folder has of this clip. A run that names no format writes them again, for their
+/// timing would not be that of the new sheet; but not over a file that it reads.
 fn again(
     args: &RunArgs,
     place: &Folder<'_>,
@@ -161,7 +161,12 @@ fn again(
     if args.fresh || !args.deliver.is_empty() || args.formats.asks_for_bvh() {
         return vec![];
     }
-    place.formats(clip).into_iter().filter(|name| !formats.writes(name)).collect()
+    let (folder, cut) = (place.path(), paths::stem(&args.plan.clip.path));
+    let may_be_written = |name: &&'static str| {
+        let with = formats.clone().with(&[*name]);
+        !formats.writes(name) && spare(args, &with, folder, &cut).is_ok()
+    };
+    place.formats(clip).into_iter().filter(may_be_written).collect()
 }
 
 /// Refuses to overwrite an input or an edited sheet.
