@@ -28,6 +28,11 @@ const ALIKE: (f64, f64) = (0.25, 0.0625);
 /// 1.
 const STILL_APART: f64 = 0.33;
 
+/// How much of the median step has passed when the other foot passes: a third in a run, nearly two thirds in a march.
+/// Drawn poses with straight inbetweens may have feet that go past each other as soon as one comes down; that is no
+/// gait.
+const PASSING: RangeInclusive<f64> = 0.2..=0.8;
+
 /// Largest time between an end of the clip and a step's missing contact, in seconds, at which the clip has cut the
 /// step.
 const AT_END: f64 = 1.0 / 12.0;
@@ -216,7 +221,8 @@ fn are_alike(steps: &[Seen]) -> bool {
 /// Builds the gait of some steps. Parts cut off by the clip are completed from the other steps.
 fn gait(legs: &Legs, steps: &[Seen]) -> Option<Gait> {
     let still_apart = median(steps.iter().filter_map(|step| step.still_apart))?;
-    if still_apart < STILL_APART {
+    let passing = median(steps.iter().filter_map(|step| Some(step.swing()? / step.length()?)));
+    if still_apart < STILL_APART || passing.is_some_and(|share| !PASSING.contains(&share)) {
         return None;
     }
     let parts: [fn(&Seen) -> Option<f64>; 2] =
