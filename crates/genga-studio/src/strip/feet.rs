@@ -15,7 +15,7 @@ const APART: f32 = 3.5;
 /// Height of the bar's beginning where a foot comes down, in points.
 const LANDING: f32 = 6.0;
 /// Koma that a genga may stand from a contact and be its genga: its pose is the same to the eye.
-const NEAR: f32 = 1.5;
+const NEAR: f64 = 1.5;
 /// Half the room of a number, and the distance of a word from the contact where there is none, in points.
 const NUMBER: f32 = 9.5;
 const BESIDE: f32 = 2.0;
@@ -60,23 +60,23 @@ pub(super) fn explain(response: Response, layout: &Layout, shown: &Shown<'_>) ->
 
 /// Says which foot comes down with the genga that begins on a koma, if one does: that of the word on the strip.
 pub(crate) fn contact_at(koma: usize, shown: &Shown<'_>) -> Option<&'static str> {
-    let clock = shown.column().clock;
-    let away = |stand: &Stand, koma: usize| {
-        let place = stand.from - clock.place_from_koma(0);
-        (place / clock.frames_in_koma() - koma as f64).abs()
-    };
-    let cells = &shown.column().cells;
-    let is_own = |stand: &&Stand| {
-        let genga = cells.iter().filter(|cell| cell.genga.is_some()).map(|cell| cell.koma);
-        let nearest = genga.min_by(|a, b| away(stand, *a).total_cmp(&away(stand, *b)));
-        nearest == Some(koma) && away(stand, koma) <= f64::from(NEAR)
-    };
+    let is_own = |stand: &&Stand| genga_of(stand, shown) == Some(koma);
     let landing = stands(shown).filter(|stand| lands(stand, shown)).find(is_own)?;
     Some(match landing.side {
         BodySide::Left => shown.words.say("contact of the left foot", "左足の接地"),
         BodySide::Right => shown.words.say("contact of the right foot", "右足の接地"),
         BodySide::Trunk => shown.words.say("contact of a foot", "足の接地"),
     })
+}
+
+/// Returns the koma of the genga with which a foot comes down: the nearest, if it is near.
+fn genga_of(stand: &Stand, shown: &Shown<'_>) -> Option<usize> {
+    let (clock, cells) = (shown.column().clock, &shown.column().cells);
+    let place = (stand.from - clock.place_from_koma(0)) / clock.frames_in_koma();
+    let away = |koma: usize| (place - koma as f64).abs();
+    let genga = cells.iter().filter(|cell| cell.genga.is_some()).map(|cell| cell.koma);
+    let nearest = genga.min_by(|a, b| away(*a).total_cmp(&away(*b)))?;
+    (away(nearest) <= NEAR).then_some(nearest)
 }
 
 /// A contact that is named.
@@ -105,13 +105,10 @@ fn contacts<'a>(layout: &Layout, shown: &Shown<'a>) -> Vec<Contact<'a>> {
         .filter(|(_, x)| layout.rect.x_range().contains(*x))
         .collect();
     landings.sort_unstable_by(|a, b| a.1.total_cmp(&b.1));
-    let near = NEAR * layout.koma();
     let mut taken = f32::NEG_INFINITY;
     let mut named = Vec::new();
     for (stand, x) in landings {
-        let away = |own: &f32| (own - x).abs();
-        let own = genga.iter().copied().min_by(|a, b| away(a).total_cmp(&away(b)));
-        let own = own.filter(|own| away(own) <= near);
+        let own = genga_of(stand, shown).map(|koma| layout.x(koma));
         let (x, apart) = own.map_or((x, BESIDE), |own| (own, NUMBER));
         let is_free = |from: f32, wide: f32| {
             let touches = |own: &f32| *own > from - NUMBER && *own < from + wide + NUMBER;
