@@ -307,6 +307,15 @@ impl Layer {
         drawings.filter(move |(_, drawing)| before.replace(*drawing) != Some(*drawing))
     }
 
+    /// Returns the koma on which each drawing is first shown; `None` if it never is.
+    pub fn first_koma(&self) -> Vec<Option<usize>> {
+        let mut first = vec![None; self.drawings.len()];
+        for (koma, exposure) in self.timed() {
+            first[exposure.drawing].get_or_insert(koma);
+        }
+        first
+    }
+
     /// Returns the drawing on each koma, as an index into [`Layer::drawings`].
     pub fn koma(&self) -> impl Iterator<Item = usize> + '_ {
         self.exposures

@@ -13,7 +13,7 @@ use std::sync::Arc;
 
 use crate::error::{Error, did_you_mean};
 use crate::motion::{Channel, Clip, Skeleton};
-use crate::sheet::{Drawing, Exposure, Feet, Layer, RootMotion, Sheet, Source};
+use crate::sheet::{Drawing, Feet, Layer, RootMotion, Sheet, Source};
 use crate::time::Clock;
 
 use feet::{FootHold, HeldFeet};
@@ -165,11 +165,8 @@ impl<'a> Composite<'a> {
     /// place.
     pub fn first_koma(&self) -> Vec<usize> {
         let own = |drawing: &Drawing| self.clock.koma_from_place(drawing.source.place());
-        let mut first: Vec<usize> = self.layer.drawings.iter().map(own).collect();
-        let shown: Vec<(usize, Exposure)> = self.layer.timed().collect();
-        // In reverse order, so that the earliest exposure is written last.
-        shown.iter().rev().for_each(|(begin, exposure)| first[exposure.drawing] = *begin);
-        first
+        let first = self.layer.first_koma().into_iter().zip(&self.layer.drawings);
+        first.map(|(koma, drawing)| koma.unwrap_or_else(|| own(drawing))).collect()
     }
 
     /// Joints that take their position from the source on every koma.

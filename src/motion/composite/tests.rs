@@ -5,7 +5,7 @@ use proptest::prelude::*;
 use super::*;
 use crate::cases::cases;
 use crate::motion::{Poser, RowWriter, bvh, local_rotation, local_translation};
-use crate::sheet::{Role, Why};
+use crate::sheet::{Exposure, Role, Why};
 
 fn kick() -> Clip {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/data/kick.bvh");

@@ -254,9 +254,10 @@ fn drawings(composite: &Composite<'_>) -> Vec<(usize, usize)> {
 
 /// Returns the drawings of a layer that are on screen, each with its first koma, in the order of time.
 fn first_shown(layer: &Layer) -> Vec<(usize, usize)> {
-    let mut seen = vec![false; layer.drawings.len()];
-    let shown = layer.timed().map(|(koma, exposure)| (exposure.drawing, koma));
-    shown.filter(|(drawing, _)| !std::mem::replace(&mut seen[*drawing], true)).collect()
+    let first = layer.first_koma().into_iter().enumerate();
+    let mut shown: Vec<_> = first.filter_map(|(drawing, koma)| Some((drawing, koma?))).collect();
+    shown.sort_by_key(|(_, koma)| *koma);
+    shown
 }
 
 /// Replaces a letter by `_` unless every system allows it in file names.

@@ -73,6 +73,6 @@ impl CelGap {
 
 /// Returns for each koma the first one that shows its drawing, on which its cel is drawn.
 fn drawn_at(layer: &Layer) -> Vec<usize> {
-    let mut first = vec![None; layer.drawings.len()];
-    layer.koma().enumerate().map(|(koma, drawing)| *first[drawing].get_or_insert(koma)).collect()
+    let first = layer.first_koma();
+    layer.koma().filter_map(|drawing| first[drawing]).collect()
 }
