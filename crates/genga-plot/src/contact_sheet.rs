@@ -93,20 +93,23 @@ impl ContactSheet {
     /// and sheet have nothing to show.
     pub fn draw(&self, cut: &str, clip: &Clip, sheet: &Sheet) -> Result<Vec<String>, Error> {
         self.validate()?;
+        let signs = Signs::new(clip, sheet);
         let (clip, sheet) = first_round(clip, sheet);
         let (clip, sheet) = (&*clip, &*sheet);
         let composite = composed(clip, sheet)?;
         let layer = composite.layer();
         let figure = Figure::new(clip, self.body);
         let poses = drawn_poses(&composite, figure.marks(), layer.drawings.len());
-        let (signs, mut cards) = (Signs::new(sheet), shown_drawings(layer));
+        let mut cards = shown_drawings(layer);
         signs.give(&mut cards);
         cards.retain(|cell| self.inbetweens || cell.genga.is_some());
         if cards.is_empty() {
             return Err(style::cannot("the sheet has no genga to show"));
         }
-        let cards: Vec<Card<'_>> =
-            cards.into_iter().map(|cell| Card::new(cell, sheet.clock.koma_rate)).collect();
+        let cards: Vec<Card<'_>> = cards
+            .into_iter()
+            .map(|cell| Card::new(cell, signs.frame(cell.drawing), sheet.clock.koma_rate))
+            .collect();
         let table = self.table(clip, figure, &poses, &cards);
         let on_page = table.columns * self.rows;
         let pages = cards.len().div_ceil(on_page);
@@ -167,14 +170,14 @@ struct Card<'a> {
 }
 
 impl<'a> Card<'a> {
-    fn new(cell: ShownDrawing<'a>, koma_rate: f64) -> Self {
+    fn new(cell: ShownDrawing<'a>, frame: f64, koma_rate: f64) -> Self {
         // The genga of several columns are named alone, and each has an exposure of its own.
         let drawing = match cell.is_composite() {
             true => String::new(),
             false => format!("drawing {}", cell.sign()),
         };
         let head = [drawing, seconds_and_koma(cell.koma, koma_rate)];
-        let place = number((cell.drawing.source.place() * 10.0).round() / 10.0);
+        let place = number((frame * 10.0).round() / 10.0);
         let held = if cell.held == 1 || cell.is_composite() {
             String::new()
         } else {

@@ -136,8 +136,13 @@ pub(super) fn shown_as<'a>(layer: &'a Layer, named: &Layer) -> Vec<ShownDrawing<
 
 /// The signs of composited drawings, by their koma: the columns that draw anew there, as `A7 C5`. On the timesheet each
 /// column has numbers of its own, and a composite has none.
-#[derive(Debug, Default)]
-pub(super) struct Signs(BTreeMap<usize, Sign>);
+#[derive(Debug)]
+pub(super) struct Signs {
+    by_koma: BTreeMap<usize, Sign>,
+    /// The clip's first frame, and the frames of a round if the sheet repeats.
+    first: f64,
+    round: Option<f64>,
+}
 
 /// The sign of a composited drawing: what it is called in each column that draws anew.
 #[derive(Debug, Default)]
@@ -147,14 +152,11 @@ struct Sign {
 }
 
 impl Signs {
-    /// Names the drawings of a sheet of several columns; empty for one column.
-    pub(super) fn new(sheet: &Sheet) -> Self {
+    /// Names the drawings of a sheet that is not played out; only those of several columns have signs.
+    pub(super) fn new(clip: &Clip, sheet: &Sheet) -> Self {
         let columns = columns(sheet);
-        if columns.len() < 2 {
-            return Self::default();
-        }
         let mut signs: BTreeMap<usize, Sign> = BTreeMap::new();
-        for column in columns {
+        for column in columns.iter().filter(|_| columns.len() > 1) {
             let between =
                 if column.name.ends_with(|last: char| last.is_numeric()) { "-" } else { "" };
             let (numbers, genga) = (column.numbers(), column.genga_numbers());
@@ -165,17 +167,24 @@ impl Signs {
                 sign.genga.extend(genga[drawing].as_ref().map(named));
             }
         }
-        Self(signs)
+        let round = sheet.repeat.map(|repeat| repeat.frames as f64);
+        Self { by_koma: signs, first: clip.first().0 as f64, round }
+    }
+
+    /// Returns the frame of the clip that a drawing shows. If the sheet is played out, each round is further on.
+    pub(super) fn frame(&self, drawing: &Drawing) -> f64 {
+        let place = drawing.source.place();
+        self.round.map_or(place, |frames| self.first + (place - self.first).rem_euclid(frames))
     }
 
     /// Whether the sheet has one column, whose drawings need no sign.
     pub(super) fn is_empty(&self) -> bool {
-        self.0.is_empty()
+        self.by_koma.is_empty()
     }
 
     /// Gives the drawings of the composite their signs.
     pub(super) fn give<'a>(&'a self, cells: &mut [ShownDrawing<'a>]) {
-        cells.iter_mut().for_each(|cell| cell.sign = self.0.get(&cell.koma));
+        cells.iter_mut().for_each(|cell| cell.sign = self.by_koma.get(&cell.koma));
     }
 }
 

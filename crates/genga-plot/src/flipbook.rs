@@ -237,7 +237,7 @@ impl<'a> PageSheet<'a> {
                     number,
                     role: drawing.role.word(),
                     genga,
-                    frame: (drawing.source.place() * 10.0).round() / 10.0,
+                    frame: (reel.signs.frame(drawing) * 10.0).round() / 10.0,
                     pinned: drawing.why.pinned.is_some(),
                     why: drawing.why.to_string(),
                     why_japanese: drawing.why.japanese(),

@@ -83,6 +83,7 @@ impl OnionSkin {
     /// sheet have nothing to show.
     pub fn draw(&self, cut: &str, clip: &Clip, sheet: &Sheet) -> Result<Vec<String>, Error> {
         self.validate()?;
+        let signs = Signs::new(clip, sheet);
         let (clip, sheet) = first_round(clip, sheet);
         let (clip, sheet) = (&*clip, &*sheet);
         let composite = composed(clip, sheet)?;
@@ -90,7 +91,7 @@ impl OnionSkin {
         let figure = Figure::new(clip, self.body);
         let poses = drawn_poses(&composite, figure.marks(), layer.drawings.len());
         let view = self.camera.view(clip, &poses);
-        let (signs, mut cells) = (Signs::new(sheet), shown_drawings(layer));
+        let mut cells = shown_drawings(layer);
         signs.give(&mut cells);
         let ways = ways(&cells);
         let panels: Vec<Panel<'_>> =

@@ -159,14 +159,15 @@ impl PoseRow {
         self.validate()?;
         let named = page_head::with_first_koma(&self.clip, sheet.blank);
         let titled = Self { clip: named, ..self.clone() };
+        let signs = Signs::new(clip, sheet);
         let (clip, sheet) = first_round(clip, sheet);
         let (clip, sheet) = (&*clip, &*sheet);
         let composite = composed(clip, sheet)?;
-        let (signs, mut kept) = (Signs::new(sheet), shown_drawings(composite.layer()));
+        let mut kept = shown_drawings(composite.layer());
         signs.give(&mut kept);
         kept.retain(|cell| cell.genga.is_some());
         let label = |cell: &ShownDrawing<'_>| {
-            let (place, words) = (cell.drawing.source.place(), format!("koma {}", cell.koma + 1));
+            let (place, words) = (signs.frame(cell.drawing), format!("koma {}", cell.koma + 1));
             let number = cell.genga_sign().map(|number| (number, cell.is_pinned()));
             Label { number, ..Label::new(place, words, cell.drawing.role) }
         };

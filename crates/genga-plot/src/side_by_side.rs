@@ -181,7 +181,7 @@ impl<'a> PlayedOut<'a> {
     /// As [`composed`].
     pub(crate) fn new(clip: &'a Clip, sheet: &'a Sheet) -> Result<Self, Error> {
         let (named, rounds) = (composed(clip, sheet)?.layer().clone(), sheet.rounds());
-        let (signs, counts) = (Signs::new(sheet), counts(sheet));
+        let (signs, counts) = (Signs::new(clip, sheet), counts(sheet));
         let (clip, sheet) = played_out(clip, sheet);
         Ok(Self { clip, sheet, named, signs, counts, rounds })
     }

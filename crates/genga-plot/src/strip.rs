@@ -102,7 +102,7 @@ impl Strip {
     /// have nothing to show.
     pub fn draw(&self, cut: &str, clip: &Clip, sheet: &Sheet) -> Result<Vec<String>, Error> {
         self.validate()?;
-        let (named, signs) = (composed(clip, sheet)?.layer().clone(), Signs::new(sheet));
+        let (named, signs) = (composed(clip, sheet)?.layer().clone(), Signs::new(clip, sheet));
         let facts = page_head::facts(sheet, &named);
         let (clip, played) = played_out(clip, sheet);
         let (clip, sheet) = (&*clip, &*played);

@@ -246,7 +246,7 @@ fn a_drawing_of_several_columns_has_their_numbers() {
     // It begins with the first drawing, and goes on when A has drawn three.
     arms.exposures = vec![Exposure { drawing: 0, koma: 6 }, Exposure { drawing: 4, koma: 2 }];
     sheet.layers.push(arms);
-    let signs = Signs::new(&sheet);
+    let signs = Signs::new(&clip, &sheet);
     let composite = composed(&clip, &sheet).unwrap();
     let mut cells = shown_drawings(composite.layer());
     signs.give(&mut cells);
