@@ -307,6 +307,11 @@ impl Layer {
         drawings.filter(move |(_, drawing)| before.replace(*drawing) != Some(*drawing))
     }
 
+    /// Returns how many drawings come on screen a second. Those of a loop come in every round.
+    pub fn drawings_per_second(&self, koma_rate: f64) -> f64 {
+        self.changes().count() as f64 * koma_rate / self.length().max(1) as f64
+    }
+
     /// Returns the koma on which each drawing is first shown; `None` if it never is.
     pub fn first_koma(&self) -> Vec<Option<usize>> {
         let mut first = vec![None; self.drawings.len()];

@@ -23,7 +23,7 @@ pub(crate) fn archive(
     let formats = Format::find_all(names).map_err(said)?;
     let mut unmade = Vec::new();
     run.with_cut(|cut| {
-        for format in formats {
+        for format in &formats {
             tell(format.name);
             let attempt = format.try_write(cut, export.settings, &mut |name, bytes| {
                 files.add(name, bytes.to_vec());
@@ -42,6 +42,9 @@ pub(crate) fn archive(
     files.add(Run::SPEEDS, run.speeds().map_err(said)?.into_bytes());
     let recipe = recipe.write(edits);
     let mut manifest = Manifest::new(clip.clone());
+    manifest.formats = formats.iter().map(|format| format.name.to_owned()).collect();
+    manifest.formats.sort_unstable();
+    manifest.settings = export.settings.own();
     manifest.recipe = Some(Manifest::digest(recipe.as_bytes()));
     files.add(Run::RECIPE, recipe.into_bytes());
     files.add(Run::REPORT, report.write().map_err(said)?.into_bytes());

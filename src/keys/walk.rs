@@ -66,14 +66,15 @@ pub struct WalkStep {
     pub next: f64,
     /// Frame that shows each phase and, last, the next contact; `None` if it lies outside the clip.
     pub frames: Vec<Option<Frame>>,
-    /// Whether a person forbids each of these frames. Then no genga shows it; the other phases stay.
-    pub forbidden: Vec<bool>,
-    /// Whether a person corrects it otherwise, or forbids all of it. Then it keeps the keys found in it and gets no phases.
+    /// Whether a correction takes each of these frames away: a person forbids it, moves it or sets a key in its place. The
+    /// other phases stay.
+    pub taken: Vec<bool>,
+    /// Whether corrections take all of it away, or a person wants no other keys. Then it keeps the keys found in it and gets no phases.
     pub is_corrected: bool,
 }
 
 impl Walk {
-    /// Returns the steps that have their phases: those that no person corrects.
+    /// Returns the steps that have their phases, but those that corrections take away.
     pub fn regular(&self) -> impl Iterator<Item = &WalkStep> {
         self.steps.iter().filter(|step| !step.is_corrected)
     }
@@ -132,12 +133,11 @@ impl Walks {
 
     /// Adds phases that a person moves to the keys, if no other key is near. They were on the sheet before.
     pub(super) fn give(&self, keys: &mut Vec<Key>, edits: &Edits, apart: f64) {
-        let steps = self.0.iter().flat_map(|walk| &walk.steps).filter(|step| step.is_corrected);
-        let corrected: Vec<Frame> =
-            steps.flat_map(|step| &step.frames).flatten().copied().collect();
+        let steps = self.0.iter().flat_map(|walk| &walk.steps);
+        let phases: Vec<Frame> = steps.flat_map(|step| &step.frames).flatten().copied().collect();
         for moved in &edits.moves {
             let near = |frame: &Frame| (frame.0.abs_diff(moved.from.0) as f64) < apart;
-            let phase = corrected.iter().filter(|frame| near(frame));
+            let phase = phases.iter().filter(|frame| near(frame));
             let phase = phase.min_by_key(|frame| frame.0.abs_diff(moved.from.0));
             if let Some(phase) = phase.filter(|_| !keys.iter().any(|key| near(&key.frame))) {
                 keys.push(Key { origin: Origin::Step, ..Key::set(*phase) });
@@ -164,7 +164,7 @@ impl Walks {
             true => !is_frozen_phase(key),
             false => !is_within(key.frame),
         });
-        let mut frames: Vec<Frame> = steps().flat_map(WalkStep::allowed).collect();
+        let mut frames: Vec<Frame> = steps().flat_map(WalkStep::shown).collect();
         frames.sort_unstable();
         frames.dedup();
         let is_free =
@@ -181,9 +181,9 @@ impl Walks {
 
 impl WalkStep {
     /// Returns the frames that genga show.
-    fn allowed(&self) -> impl Iterator<Item = Frame> {
-        let frames = self.frames.iter().zip(&self.forbidden);
-        frames.filter_map(|(frame, is_forbidden)| frame.filter(|_| !is_forbidden))
+    fn shown(&self) -> impl Iterator<Item = Frame> {
+        let frames = self.frames.iter().zip(&self.taken);
+        frames.filter_map(|(frame, is_taken)| frame.filter(|_| !is_taken))
     }
 
     /// Whether a frame is in the step, or nearer to it than `near` frames.

@@ -90,7 +90,7 @@ impl Goal {
         let target = Target::DrawingsPerSecond(self.per_second);
         let breakdown = search.engine.run(&found.recipe, edits)?;
         let (drawings, genga) = (layer(&breakdown).shown().count(), layer(&breakdown).genga());
-        let seconds = breakdown.sheet.length() as f64 / breakdown.clock.koma_rate;
+        let reached = layer(&breakdown).drawings_per_second(breakdown.clock.koma_rate);
         let shortfall = if found.excess.abs() <= NEAR {
             None
         } else if found.excess > 0.0 && !self.keys_are_free {
@@ -111,7 +111,7 @@ impl Goal {
                 "コマ撮り、spacing.on、中無しのどの設定でもこれ以上近づかない",
             ))
         };
-        Ok((found.recipe, Outcome { target, reached: drawings as f64 / seconds, shortfall }))
+        Ok((found.recipe, Outcome { target, reached, shortfall }))
     }
 
     /// Finds the settings nearest to the recipe; a fixed number of inbetweens is given up if no koma-dori suffices.
@@ -161,9 +161,10 @@ impl Search<'_> {
     /// Runs a recipe. Returns how many drawings too many it gives, and how many koma-dori took.
     fn look(&mut self, recipe: &Recipe) -> Result<(Found, usize), Error> {
         let breakdown = self.engine.run(recipe, self.edits)?;
-        let drawings = layer(&breakdown).shown().count() as f64;
+        let drawings = layer(&breakdown).changes().count() as f64;
         let seconds = breakdown.sheet.length() as f64 / breakdown.clock.koma_rate;
-        let excess = drawings - self.per_second * seconds;
+        // A drawing that a loop does without is gone in every round.
+        let excess = (drawings - self.per_second * seconds) / breakdown.sheet.rounds() as f64;
         let done = breakdown.first_layer().omission.koma_dori.done;
         Ok((Found { recipe: recipe.clone(), excess }, done))
     }

@@ -90,6 +90,61 @@ fn a_run_that_names_no_format_writes_those_of_its_folder_again() {
     assert!(said.contains("c/limited.bvh") || said.contains("another clip"), "{said}");
 }
 
+#[test]
+fn settings_of_formats_stay_with_them() {
+    let place = Place::new();
+    let with = "--with remap.pictures=shot_%04d.png --with csv.bom=true --camera front";
+    place.done(&format!("run data/kick.bvh --deliver contact {with} --out a"));
+    let said = place.said("run data/kick.bvh --pin 61 --out a");
+    let kept =
+        "--with csv.bom=true --with figures.camera=front --with remap.pictures=shot_%04d.png";
+    assert!(said.contains(kept), "{said}");
+    place.done("run data/kick.bvh --out b");
+    place.done(&format!("run data/kick.bvh --pin 61 --deliver contact {with} --out b"));
+    assert_eq!(all(&place.path("a")), all(&place.path("b")));
+    // One that is given goes over it, for a delivery too.
+    place.done("deliver a data/kick.bvh --to remap --with remap.pictures=%04d.png --out a");
+    let list = text(&place.files("a")["remap.ffconcat"]);
+    assert!(!list.contains("shot_"), "{list}");
+    place.done("run data/kick.bvh --fresh --out a");
+    place.done("run data/kick.bvh --out c");
+    assert_eq!(all(&place.path("a")), all(&place.path("c")));
+}
+
+#[test]
+fn a_changed_file_of_an_earlier_sheet_is_named_by_every_run() {
+    let place = Place::new();
+    place.done("run data/kick.bvh --deliver xdts --out a");
+    change(&place, "a/kick_genga_ts.xdts");
+    let told = "not of this sheet, kept because they were changed since: kick_genga_ts.xdts";
+    for args in ["--pin 61 --deliver json", "--pin 62"] {
+        let said = place.said(&format!("run data/kick.bvh {args} --out a"));
+        assert!(said.contains(told), "{args}: {said}");
+    }
+}
+
+/// A line is deleted to take a correction back. Later runs write the recipe again.
+#[test]
+fn a_recipe_from_which_a_line_was_deleted_is_not_in_the_way() {
+    let place = Place::new();
+    place.done("run data/kick.bvh --pin 61 --forbid 20 --out a");
+    let recipe = text(&place.files("a")["recipe.toml"]);
+    let lines: Vec<&str> = recipe.lines().filter(|line| !line.starts_with("forbidden")).collect();
+    assert!(lines.len() < recipe.lines().count());
+    fs::write(place.path("a/recipe.toml"), lines.join("\n") + "\n").unwrap();
+    place.done("run data/kick.bvh --recipe a/recipe.toml --out a");
+    let said = place.said("run data/kick.bvh --pin 42 --out a");
+    assert!(
+        said.contains("pin 42") && said.contains("pin 61") && !said.contains("forbid"),
+        "{said}"
+    );
+    // A person's own comment stays.
+    let noted = text(&place.files("a")["recipe.toml"]) + "# for the director\n";
+    fs::write(place.path("a/recipe.toml"), &noted).unwrap();
+    place.done("run data/kick.bvh --recipe a/recipe.toml --out a");
+    assert_eq!(text(&place.files("a")["recipe.toml"]), noted);
+}
+
 /// Of an edited sheet only what is delivered has the new timing.
 #[test]
 fn a_delivery_of_an_edited_sheet_says_what_keeps_the_old_timing() {

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::fs;
 
-use genga::edits::{Edits, Forbidden, Pin};
+use genga::edits::{Edits, Forbidden, Move, Pin};
 use genga::keys::{AtGaits, Choose, Origin, WalkStep};
 use genga::motion::{Clip, Gait, Step};
 use genga::pipeline::Engine;
@@ -235,46 +235,39 @@ fn passings_are_drawn() {
     });
 }
 
-/// The drawings that begin within a range: their koma, and the frames that they show.
-fn shown(layer: &Layer, (from, to): (usize, usize)) -> Vec<(usize, f64)> {
-    let inside = layer.timed().filter(|(begin, _)| (from..to).contains(begin));
-    let shown = |(begin, exposure): (usize, Exposure)| {
-        (begin, layer.drawings[exposure.drawing].source.place())
-    };
-    inside.map(shown).collect()
-}
-
 #[test]
-fn a_pin_breaks_its_own_step_alone() {
+fn a_pin_or_a_move_takes_the_phases_near_it_and_leaves_all_others() {
     clips::with(["cmu-07_01-walk"], |[path]| {
         let clip = clips::read(&path);
         let koma = clip.rate().fps() / 24.0;
         let before = walked(clip.clone(), &Edits::default());
-        let steps = &before.steps[0];
-        let frame = |(begin, _): (usize, usize)| shown(&before.layer, (begin, begin + 1))[0].1;
-        // In the midst of each step, and in the place of its contact, which two steps share.
-        for (at, (from, to)) in steps.iter().enumerate() {
-            let middle = clip.clock(24.0).frame_from_koma(usize::midpoint(*from, *to)).0 as f64;
-            let contact = frame((*from, *to));
-            let both = at.saturating_sub(1)..at + 1;
-            let places = [
-                (middle, at..at + 1),
-                (contact + 0.7 * koma, both.clone()),
-                (contact - 0.7 * koma, both),
-            ];
-            for (place, broken) in places {
-                let pin = Pin::parse(&place.round().to_string()).unwrap();
-                let edits = Edits { pins: vec![pin], ..Edits::default() };
-                let after = walked(clip.clone(), &edits);
-                let others = steps.iter().enumerate().filter(|(at, _)| !broken.contains(at));
-                for (_, step) in others {
-                    let [own, other] = [&before, &after].map(|walked| shown(&walked.layer, *step));
-                    assert_eq!(own, other, "{at}: {place}");
-                }
-                if place == middle {
-                    let left: Vec<_> = steps.iter().filter(|step| step.0 != *from).collect();
-                    assert_eq!(after.steps.iter().flatten().collect::<Vec<_>>(), left, "{at}");
-                }
+        let genga = |layer: &Layer| -> Vec<(usize, f64)> {
+            let all = layer.timed().map(|(koma, shown)| (koma, &layer.drawings[shown.drawing]));
+            let genga = all.filter(|(_, drawing)| drawing.role == Role::Genga);
+            genga.map(|(koma, drawing)| (koma, drawing.source.place())).collect()
+        };
+        let phases = genga(&before.layer);
+        let check = |edits: &Edits, from: Option<f64>, to: f64| {
+            let after = walked(clip.clone(), edits);
+            assert_eq!(after.steps.len(), before.steps.len(), "{to}");
+            let is_far = |(_, place): &&(usize, f64)| {
+                (place - to).abs() >= 2.0 * koma && Some(*place) != from
+            };
+            let stay: Vec<_> = phases.iter().filter(is_far).collect();
+            let now = genga(&after.layer);
+            let own: Vec<_> = now.iter().filter(|(_, place)| *place != to).collect();
+            assert_eq!(own, stay, "{from:?} {to}");
+            assert!(now.iter().any(|(_, place)| *place == to), "{to}: {now:?}");
+        };
+        for pair in phases.windows(2) {
+            let [from, next] = [pair[0].1, pair[1].1];
+            for share in [0.1, 0.5, 0.9] {
+                let to = (from + share * (next - from)).round();
+                let pin = Pin::parse(&to.to_string()).unwrap();
+                check(&Edits { pins: vec![pin], ..Edits::default() }, None, to);
+                let ends = [from, to].map(|place| Frame(place as usize));
+                let moved = Move { from: ends[0], to: ends[1], name: None, weight: None };
+                check(&Edits { moves: vec![moved], ..Edits::default() }, Some(from), to);
             }
         }
     });

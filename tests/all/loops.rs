@@ -14,6 +14,36 @@ use genga_files::limited;
 use crate::clips;
 use crate::program::{Place, column, text};
 
+/// A correction is given by the frame that a picture names.
+#[test]
+fn pictures_of_a_loop_name_the_frames_of_the_clip() {
+    let place = Place::new();
+    let loop_of = "run data/tennis.bvh --trim 7..85 --loop --deliver contact,flipbook,xsheet";
+    for cycles in [1, 2] {
+        let out = format!("loop{cycles}");
+        place.done(&format!("{loop_of} --cycles {cycles} --out {out}"));
+        let files = place.files(&out);
+        let table = text(&files["drawings.csv"]);
+        let all: Vec<f64> =
+            column(&table, "source_frame").iter().map(|frame| frame.parse().unwrap()).collect();
+        for (file, word) in [("contact.svg", ">frame "), ("flipbook.html", "\"frame\":")] {
+            let page = text(&files[file]);
+            let named = page.split(word).skip(1).map(|rest| {
+                let end = rest.find(|next: char| !next.is_ascii_digit() && next != '.').unwrap();
+                rest[..end].parse::<f64>().unwrap()
+            });
+            let named: Vec<f64> = named.collect();
+            let is_there = |frame: &f64| all.iter().any(|own| (own - frame).abs() <= 0.051);
+            assert!(named.len() > 3 && named.iter().all(is_there), "{file}: {named:?} {all:?}");
+        }
+        // A drawing of a loop comes again in every round.
+        let report: serde_json::Value = serde_json::from_slice(&files["report.json"]).unwrap();
+        let number = |name: &str| report[name].as_f64().unwrap();
+        let a_round = number("drawings") * 24.0 * f64::from(cycles) / number("koma");
+        assert!((number("drawings_per_second") - a_round).abs() < 1e-9, "{report}");
+    }
+}
+
 /// The looped sheet of a clip with some changed settings.
 fn looped(clip: &Clip, settings: &[(&str, &str)]) -> Sheet {
     let mut recipe = Recipe { r#loop: true, ..Recipe::default() };

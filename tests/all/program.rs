@@ -882,7 +882,10 @@ fn another_timing_beside_that_of_the_run_is_told() {
     edit(&place.path("edited.json"));
     let said = |args: &str| text(&place.genga(args).stderr);
     let into_run = said("deliver edited.json data/kick.bvh --out a --to bars");
-    assert!(into_run.contains("keeps the timing of its sheet.json; --out DIR"), "{into_run}");
+    assert!(
+        into_run.contains("keeps the timing of the sheet.json in this folder; --out"),
+        "{into_run}"
+    );
     for same in [
         "deliver edited.json data/kick.bvh --out b --to bars",
         "deliver a/kick_douga_ts.xdts data/kick.bvh --to bars",

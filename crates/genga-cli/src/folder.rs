@@ -30,6 +30,8 @@ pub(super) struct Made<'a> {
     pub(super) recipe: Option<String>,
     /// Names of the formats that were written.
     pub(super) formats: Vec<&'static str>,
+    /// Their settings that differ from the defaults.
+    pub(super) settings: BTreeMap<String, String>,
     /// Numbered files left over from a longer sheet.
     pub(super) stale: Vec<String>,
     /// Whether all other files of the previous run stay.
@@ -62,7 +64,10 @@ impl Left {
         let groups = [
             ("painted, kept and not written again (--overwrite NAME does)", self.painted),
             ("of an earlier run, removed", self.gone),
-            ("of an earlier run, kept because they were changed since", self.changed),
+            (
+                "of an earlier run and not of this sheet, kept because they were changed since",
+                self.changed,
+            ),
             ("of an earlier run, kept because a link leads to them", self.linked),
             ("of an earlier sheet, not of this one", self.stale),
         ];
@@ -111,19 +116,28 @@ impl<'a> Folder<'a> {
 
     /// Whether it holds the results of a run of this clip.
     pub(super) fn has_run_of(&self, clip: &ClipMark) -> bool {
-        self.is_of(clip) && self.before.as_ref().is_some_and(|run| run.recipe.is_some())
+        self.of(clip).is_some_and(|run| run.recipe.is_some())
     }
 
     /// Whether it holds results of this clip.
     pub(super) fn is_of(&self, clip: &ClipMark) -> bool {
-        self.before.as_ref().is_some_and(|before| before.clip.is_of(clip))
+        self.of(clip).is_some()
     }
 
     /// Names of the formats that runs and deliveries of this clip wrote here, but those that this build does not have.
     pub(super) fn formats(&self, clip: &ClipMark) -> Vec<&'static str> {
-        let before = self.before.iter().filter(|before| before.clip.is_of(clip));
-        let names = before.flat_map(|before| &before.formats);
+        let names = self.of(clip).into_iter().flat_map(|before| &before.formats);
         names.filter_map(|name| Some(Format::find(name).ok()?.name)).collect()
+    }
+
+    /// The settings of these formats that differ from the defaults.
+    pub(super) fn settings(&self, clip: &ClipMark) -> BTreeMap<String, String> {
+        self.of(clip).map(|before| before.settings.clone()).unwrap_or_default()
+    }
+
+    /// The manifest, if the folder holds results of this clip.
+    fn of(&self, clip: &ClipMark) -> Option<&Manifest> {
+        self.before.as_ref().filter(|before| before.clip.is_of(clip))
     }
 
     /// The folder's path.
@@ -153,13 +167,22 @@ impl<'a> Folder<'a> {
             |name: &String| [&gone, &changed, &linked].iter().any(|of| of.contains(name));
         let stale = made.stale.into_iter().filter(|name| !is_known(name)).collect();
         let recipe = made.recipe.or_else(|| self.before.as_ref()?.recipe.clone());
-        let kept = if made.adds { self.formats(&made.clip) } else { vec![] };
-        let formats: BTreeSet<&str> = kept.into_iter().chain(made.formats).collect();
-        let formats = formats.into_iter().map(str::to_owned).collect();
+        let (mut formats, mut settings) = match made.adds {
+            true => (self.formats(&made.clip), self.settings(&made.clip)),
+            false => Default::default(),
+        };
+        formats.extend(made.formats);
+        settings.extend(made.settings);
+        let formats: BTreeSet<&str> = formats.into_iter().collect();
         let mut manifest = Manifest::new(made.clip);
-        manifest.formats = formats;
+        manifest.formats = formats.into_iter().map(str::to_owned).collect();
+        manifest.settings = settings;
         manifest.recipe = recipe;
-        manifest.files = stay.into_iter().chain(come).collect();
+        // What a person changed is listed as it was written, so that the next run tells of it again.
+        let digest =
+            |name: &String| Some((name.clone(), self.before.as_ref()?.files.get(name)?.clone()));
+        let changed_since = changed.iter().filter_map(digest);
+        manifest.files = stay.into_iter().chain(come).chain(changed_since).collect();
         bundle.add(Run::MANIFEST, manifest.write()?)?;
         bundle.finish(gone.clone())?;
         Ok(Left { painted, gone, changed, linked, stale })

@@ -11,6 +11,7 @@ use super::corrections::assignment;
 use super::failure::Failure;
 use super::headings::FILES;
 use super::sheets::SHEET;
+use super::shell::quoted;
 use super::staging::Bundle;
 use super::{files, paths};
 use genga::error::{Error, Warning};
@@ -37,6 +38,17 @@ impl LookArgs {
     /// Makes the settings of all formats.
     pub(super) fn settings(&self) -> Result<Settings, Failure> {
         let mut settings = Settings::default();
+        self.put(&mut settings)?;
+        Ok(settings)
+    }
+
+    /// Whether a setting is given.
+    fn gives(&self, name: &str) -> bool {
+        self.with.iter().any(|(given, _)| given == name)
+            || (name == "figures.camera" && self.camera.is_some())
+    }
+
+    fn put(&self, settings: &mut Settings) -> Result<(), Failure> {
         if let Some(camera) = self.camera {
             settings.look_from(camera);
         }
@@ -56,7 +68,7 @@ impl LookArgs {
                 settings.set(name, value).map_err(|error| wrongly("with", &error))?;
             }
         }
-        Ok(settings)
+        Ok(())
     }
 }
 
@@ -328,6 +340,40 @@ impl Formats {
         let is_wanted = |format: &&Format| self.writes(format.name) || names.contains(&format.name);
         self.formats = FORMATS.iter().filter(is_wanted).collect();
         self
+    }
+
+    /// Lays the settings given now over those that the formats of the folder had. Returns what was kept and what cannot
+    /// be, in words.
+    pub(super) fn over(
+        &mut self,
+        before: &BTreeMap<String, String>,
+        args: &FormatArgs,
+    ) -> Result<Vec<String>, Failure> {
+        let mut settings = Settings::default();
+        let before = before.iter().filter(|(name, _)| !args.look.gives(name));
+        let (kept, lost): (Vec<_>, Vec<_>) = before.partition(|(name, value)| {
+            let is_unread = *name == "vmd.model" && Vmd::is_file(value);
+            !is_unread && settings.set(name, value).is_ok()
+        });
+        args.look.put(&mut settings)?;
+        settings.vmd.map = self.settings.vmd.map.take();
+        self.settings = settings;
+        let said = [
+            (kept, "settings of formats, as the folder has them (--fresh goes without)"),
+            (lost, "settings of formats that do not stay; give them again"),
+        ];
+        let listed = |settings: Vec<(&String, &String)>| {
+            let options =
+                settings.into_iter().map(|(name, value)| quoted(&format!("{name}={value}")));
+            options.map(|option| format!("--with {option}")).collect::<Vec<_>>().join(" ")
+        };
+        let said = said.into_iter().filter(|(settings, _)| !settings.is_empty());
+        Ok(said.map(|(settings, what)| format!("{what}: {}", listed(settings))).collect())
+    }
+
+    /// The settings that differ from the defaults, by name.
+    pub(super) fn own_settings(&self) -> BTreeMap<String, String> {
+        self.settings.own()
     }
 
     /// Names of the formats, in the order in which they are written.

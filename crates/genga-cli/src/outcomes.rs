@@ -16,14 +16,15 @@ pub(super) fn of_corrections(edits: &Edits, breakdown: &Breakdown<'_>) -> Vec<St
     let layers: Vec<_> = breakdown.layers().collect();
     let mut lines: Vec<(Frame, String)> = Vec::new();
     for (own, sheet) in layers.iter().zip(&breakdown.sheet.layers) {
+        let of_layer = edits.of_layer(&own.layer.name);
         let outcomes = Outcomes {
             own,
+            edits: &of_layer,
             sheet,
             clock: breakdown.clock,
             before: breakdown.sheet.blank.before,
             layer: if layers.len() > 1 { format!("{}/", own.layer.name) } else { String::new() },
         };
-        let of_layer = edits.of_layer(&own.layer.name);
         lines.extend(of_layer.pins.iter().filter_map(|pin| outcomes.of_pin(pin)));
         lines.extend(of_layer.forbidden.iter().filter_map(|ban| outcomes.of_ban(*ban)));
         lines.extend(of_layer.moves.iter().filter_map(|moved| outcomes.of_move(moved)));
@@ -57,6 +58,8 @@ fn listed(frames: &[Frame]) -> String {
 /// The keys of a layer before and after the corrections.
 struct Outcomes<'a> {
     own: &'a LayerBreakdown<'a>,
+    /// The corrections that apply to it.
+    edits: &'a Edits,
     /// Its column of the sheet.
     sheet: &'a Layer,
     clock: Clock,
@@ -199,11 +202,16 @@ impl Outcomes<'_> {
             && rests.iter().all(|rest| *rest.start() != frame)
     }
 
-    /// Frames of the keys that went with a correction at a frame.
+    /// Frames of the keys that went with a pin at a frame, and not because of another correction.
     fn lost_near(&self, frame: Frame) -> Vec<Frame> {
+        if self.edits.only_pins {
+            return vec![];
+        }
+        let koma = self.clock.frames_in_koma();
+        let is_forbidden = |at: Frame| self.edits.forbidden.iter().any(|ban| ban.reaches(at, koma));
         let (before, after) = self.between(frame);
         let is_near = |at: &Frame| before.is_none_or(|b| b < *at) && after.is_none_or(|a| *at < a);
-        let lost = self.lost().filter(is_near);
+        let lost = self.lost().filter(|at| is_near(at) && !is_forbidden(*at));
         lost.filter(|at| !self.is_moved(*at) && !self.ends_rest(*at)).collect()
     }
 

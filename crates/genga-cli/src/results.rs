@@ -76,6 +76,7 @@ impl Results<'_> {
             clip: self.clip.clone(),
             recipe: Some(digest),
             formats: formats.names(),
+            settings: formats.own_settings(),
             stale: written.stale,
             adds: false,
             given: self.is_own_recipe.then_some(Run::RECIPE),

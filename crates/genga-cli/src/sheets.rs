@@ -48,7 +48,8 @@ pub(super) fn of_another_timing(folder: &Path, from: &Path, sheet: &Sheet) -> Op
     let own = sheet_json::read(&files::read(&own).ok()?).ok()?.sheet;
     let timing = |sheet: &Sheet| -> Vec<Vec<_>> { sheet.layers.iter().map(shown).collect() };
     (timing(&own) != timing(sheet)).then(|| {
-        "what the run wrote here keeps the timing of its sheet.json; --out DIR gives this timing a folder of its own"
+        "what is not written now keeps the timing of the sheet.json in this folder; --out DIR gives this timing a folder \
+         of its own"
             .into()
     })
 }

@@ -28,6 +28,9 @@ pub struct Manifest {
     /// Names of the formats that the files belong to.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub formats: Vec<String>,
+    /// Settings of the formats that differ from their defaults, by name.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub settings: BTreeMap<String, String>,
     /// Digests of the files, by name with `/` between folders.
     pub files: BTreeMap<String, String>,
 }
@@ -64,8 +67,8 @@ impl Manifest {
     /// Creates the manifest of a folder in which nothing has been written yet.
     pub fn new(clip: ClipMark) -> Self {
         let genga = env!("CARGO_PKG_VERSION").into();
-        let (formats, files) = (vec![], BTreeMap::new());
-        Self { schema: SCHEMA.into(), genga, clip, recipe: None, formats, files }
+        let (formats, settings, files) = (vec![], BTreeMap::new(), BTreeMap::new());
+        Self { schema: SCHEMA.into(), genga, clip, recipe: None, formats, settings, files }
     }
 
     /// Computes a file's digest as listed in [`files`](Self::files).

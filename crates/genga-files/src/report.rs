@@ -172,8 +172,7 @@ fn layers(breakdown: &Breakdown<'_>) -> Vec<LayerReport> {
         drawn: of.drawn,
         genga: layer.genga(),
         drawings: layer.shown().count(),
-        drawings_per_second: layer.shown().count() as f64 * breakdown.clock.koma_rate
-            / layer.length() as f64,
+        drawings_per_second: layer.drawings_per_second(breakdown.clock.koma_rate),
         longest_hold: layer.longest_hold(),
         omission: of.omission.into(),
     };
@@ -218,7 +217,7 @@ impl Report {
             genga_per_second: per_second(layer.genga()),
             genga_over_limit: first.keys.over_limit,
             drawings: layer.shown().count(),
-            drawings_per_second: per_second(layer.shown().count()),
+            drawings_per_second: layer.drawings_per_second(koma_rate),
             drawings_before_omission: breakdown.spaced.layers[0].drawings.len(),
             longest_hold: layer.longest_hold(),
             held_koma: layer.held_koma(),

@@ -1,5 +1,7 @@
 //! The settings of the formats: a small struct per format, set by name.
 
+use std::collections::BTreeMap;
+
 use serde::{Deserialize, Serialize};
 
 use crate::xdts::{Tdts, Xdts};
@@ -108,6 +110,19 @@ impl Settings {
     /// All settings with their values, written as [`Settings::set`] takes them.
     pub fn settings(&self) -> Vec<(&'static Knob, String)> {
         self.values().into_iter().map(|(knob, value)| (knob, value.text())).collect()
+    }
+
+    /// The settings that differ from their defaults, by name. A model that was read from a file has a file's name, so that
+    /// it is not taken for the name of a model alone.
+    pub fn own(&self) -> BTreeMap<String, String> {
+        let own = self.settings().into_iter().zip(Self::default().settings());
+        let own = own.filter(|(own, usual)| own != usual);
+        let mut own: BTreeMap<_, _> =
+            own.map(|((knob, value), _)| (knob.name.to_owned(), value)).collect();
+        if let Some(body) = &self.vmd.body {
+            own.insert("vmd.model".into(), format!("{}.pmx", body.name));
+        }
+        own
     }
 
     /// The settings that differ from their defaults, one line each: `FORMAT.SETTING VALUE`.

@@ -160,7 +160,7 @@ impl SheetPlot {
 fn counts(layer: &Layer, koma_rate: f64) -> String {
     let (koma, drawings) = (layer.length(), layer.shown().count());
     let seconds = koma as f64 / koma_rate;
-    let a_second = if koma == 0 { 0.0 } else { drawings as f64 / seconds };
+    let a_second = layer.drawings_per_second(koma_rate);
     let joints = match layer.joints.as_slice() {
         [] => String::new(),
         [only] => format!("  ·  {only}"),

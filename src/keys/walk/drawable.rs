@@ -1,7 +1,7 @@
 //! Chooses the frame that shows each phase of a row of steps.
 
 use crate::edits::Edits;
-use crate::keys::walk::{NEAR, WalkStep, bounds};
+use crate::keys::walk::{NEAR, WalkStep};
 use crate::keys::{Key, Origin};
 use crate::time::Frame;
 
@@ -24,12 +24,12 @@ impl Drawable<'_> {
         let instants: Vec<f64> =
             row.iter().flat_map(|(_, instants)| instants.iter().copied()).chain(last).collect();
         let frames = self.frames(&instants);
-        let forbidden = self.forbidden(&frames);
+        let taken = self.taken(&frames);
         let mut from = 0;
         for (step, instants) in row {
             let to = from + instants.len();
             step.frames = frames[from..=to].to_vec();
-            step.forbidden = forbidden[from..=to].to_vec();
+            step.taken = taken[from..=to].to_vec();
             step.is_corrected = self.corrects(step);
             from = to;
         }
@@ -63,51 +63,41 @@ impl Drawable<'_> {
         is_own.then_some(turn)
     }
 
-    /// Whether a person corrects the step that shows these frames. Such a step keeps the keys found in it.
+    /// Whether no phase of a step is left. Such a step keeps the keys found in it.
     fn corrects(&self, step: &WalkStep) -> bool {
-        let Edits { pins, moves, frozen, only_pins, .. } = self.edits;
-        let frames = &step.frames;
-        let set = pins.iter().map(|pin| pin.frame);
-        let set = set.chain(moves.iter().flat_map(|moved| [moved.from, moved.to]));
-        let is_forbidden = frames.iter().any(Option::is_some) && step.allowed().next().is_none();
+        let Edits { frozen, only_pins, .. } = self.edits;
+        let is_taken = step.frames.iter().any(Option::is_some) && step.shown().next().is_none();
         // Next to the clip's ends, a sheet has no room for a genga.
         let room = NEAR * self.koma + 1.0;
         let far =
             |frame: &Frame| (self.ends.1.0 - frame.0).min(frame.0 - self.ends.0.0) as f64 > room;
         let was_there =
-            frozen.is_empty() || step.allowed().filter(far).all(|frame| frozen.contains(&frame));
-        let reaches = |frame: Frame| has(frames, frame) || self.takes_contact(frames, frame);
-        *only_pins || !was_there || is_forbidden || set.into_iter().any(reaches)
+            frozen.is_empty() || step.shown().filter(far).all(|frame| frozen.contains(&frame));
+        *only_pins || !was_there || is_taken
     }
 
-    /// Returns whether a person forbids each frame of a row. A single forbidden frame means the nearest of them alone, as
-    /// phases stand as near to each other as it reaches.
-    fn forbidden(&self, frames: &[Option<Frame>]) -> Vec<bool> {
-        let mut are_forbidden = vec![false; frames.len()];
-        for range in &self.edits.forbidden {
-            let away = |frame: Option<Frame>| {
-                frame.filter(|at| range.reaches(*at, self.koma)).map(|at| range.distance(at))
-            };
-            let nearest = frames.iter().filter_map(|frame| away(*frame)).min();
-            let means = |away: usize| !range.is_one() || Some(away) == nearest;
-            for (is_forbidden, frame) in are_forbidden.iter_mut().zip(frames) {
-                *is_forbidden |= away(*frame).is_some_and(means);
+    /// Returns whether a correction takes each frame of a row away.
+    fn taken(&self, frames: &[Option<Frame>]) -> Vec<bool> {
+        let Edits { pins, moves, forbidden, .. } = self.edits;
+        let mut are_taken = vec![false; frames.len()];
+        let mut take = |away: &dyn Fn(Frame) -> Option<usize>, means_one: bool| {
+            let away = |frame: &Option<Frame>| frame.and_then(away);
+            let nearest = frames.iter().filter_map(away).min();
+            for (is_taken, frame) in are_taken.iter_mut().zip(frames) {
+                *is_taken |= away(frame).is_some_and(|far| !means_one || Some(far) == nearest);
             }
+        };
+        let within = |place: Frame, frame: Frame, most: f64| {
+            Some(frame.0.abs_diff(place.0)).filter(|far| (*far as f64) < most * self.koma)
+        };
+        for range in forbidden {
+            let away = |at| range.reaches(at, self.koma).then(|| range.distance(at));
+            // A single frame means the nearest phase alone: they stand as near to each other as it reaches.
+            take(&away, range.is_one());
         }
-        are_forbidden
+        let set = pins.iter().map(|pin| pin.frame).chain(moves.iter().map(|moved| moved.to));
+        set.for_each(|set| take(&|at| within(set, at, NEAR), false));
+        moves.iter().for_each(|moved| take(&|at| within(moved.from, at, 1.0), true));
+        are_taken
     }
-
-    /// Whether a key at a frame takes the place of a step's contact, being nearer than a koma.
-    fn takes_contact(&self, frames: &[Option<Frame>], frame: Frame) -> bool {
-        let [contact, _] = bounds(frames);
-        contact.is_some_and(|contact| (contact.0.abs_diff(frame.0) as f64) < self.koma)
-    }
-}
-
-/// Whether a frame is in the step that shows these: from its contact on, before the next.
-pub(super) fn has(frames: &[Option<Frame>], frame: Frame) -> bool {
-    let [from, to] = bounds(frames);
-    frames.iter().any(Option::is_some)
-        && from.is_none_or(|from| from <= frame)
-        && to.is_none_or(|to| frame < to)
 }

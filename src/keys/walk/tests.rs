@@ -1,6 +1,5 @@
 use std::ops::Range;
 
-use super::drawable::has;
 use super::*;
 use crate::edits::{Forbidden, Move, Pin};
 use crate::motion::Step;
@@ -131,22 +130,36 @@ fn a_step_that_shows_nothing_of_the_clip_takes_no_key() {
         contact: 95.0,
         next: 108.0,
         frames: vec![None; 5],
-        forbidden: vec![false; 5],
+        taken: vec![false; 5],
         is_corrected: false,
     };
-    assert!(!step.covers(Frame(0), KOMA) && !has(&step.frames, Frame(450)));
+    assert!(!step.covers(Frame(0), KOMA));
     let begun = WalkStep { frames: vec![None, None, None, None, Some(Frame(40))], ..step };
-    assert!(begun.covers(Frame(10), KOMA) && has(&begun.frames, Frame(10)));
-    assert!(!begun.covers(Frame(60), KOMA) && !has(&begun.frames, Frame(60)));
+    assert!(begun.covers(Frame(10), KOMA));
+    assert!(!begun.covers(Frame(60), KOMA));
+}
+
+/// Returns the phases of all steps without those between some koma.
+fn without(gone: Range<f64>) -> Vec<f64> {
+    all_but(0..0).into_iter().filter(|koma| !gone.contains(koma)).collect()
 }
 
 #[test]
-fn a_correction_breaks_the_step_in_which_it_is_and_no_other() {
-    let pin = Pin { frame: Frame(5 * 33), ..Pin::parse("1").unwrap() };
-    let laid_with = laid(&Edits { pins: vec![pin], ..Edits::default() });
-    assert_eq!(koma_of(&laid_with, Origin::Pinned), [33.0]);
-    assert_eq!(koma_of(&laid_with, Origin::Fill), [32.6, 35.4], "what was found is there again");
-    assert_eq!(koma_of(&laid_with, Origin::Step), all_but(2..3));
+fn a_pin_takes_the_place_of_the_phases_near_it_and_of_no_others() {
+    let pinned_at = |frame: usize| {
+        let pin = Pin { frame: Frame(frame), ..Pin::parse("1").unwrap() };
+        laid(&Edits { pins: vec![pin], ..Edits::default() })
+    };
+    let passing = pinned_at(5 * 33);
+    assert_eq!(koma_of(&passing, Origin::Pinned), [33.0]);
+    assert!(koma_of(&passing, Origin::Fill).is_empty(), "no key comes back");
+    assert_eq!(koma_of(&passing, Origin::Step), without(34.0..34.1), "31 is two koma away");
+    // Two steps share the contact at 28.8.
+    let contact = pinned_at(5 * 28 + 1);
+    assert_eq!(koma_of(&contact, Origin::Pinned), [28.2]);
+    assert_eq!(koma_of(&contact, Origin::Step), without(28.8..28.9));
+    // Between up and the next contact there is room.
+    assert_eq!(koma_of(&pinned_at(198), Origin::Step), all_but(0..0));
 }
 
 #[test]
@@ -155,9 +168,6 @@ fn a_forbidden_phase_goes_alone_and_a_step_of_none_keeps_what_was_found() {
     let forbid_frame = |frame: usize| laid_without(Forbidden::one(Frame(frame)));
     let forbid = |from: usize, past: usize| {
         laid_without(Forbidden { from: Frame(5 * from), past: Frame(5 * past) })
-    };
-    let without = |gone: Range<f64>| -> Vec<f64> {
-        all_but(0..0).into_iter().filter(|koma| !gone.contains(koma)).collect()
     };
     let is_passing = 34.0;
     let laid_with = forbid(34, 35);
@@ -169,15 +179,6 @@ fn a_forbidden_phase_goes_alone_and_a_step_of_none_keeps_what_was_found() {
     assert_eq!(koma_of(&forbid(28, 29), Origin::Step), without(28.0..29.0));
     // All phases of the third step; those of its neighbours stay.
     assert_eq!(koma_of(&forbid(29, 41), Origin::Step), without(28.0..42.0));
-}
-
-#[test]
-fn a_pin_in_the_place_of_a_contact_corrects_both_steps_that_share_it() {
-    // The third contact is at 28.8; the pin is in the step before it.
-    let pin = Pin { frame: Frame(5 * 28 + 1), ..Pin::parse("1").unwrap() };
-    let laid = laid(&Edits { pins: vec![pin], ..Edits::default() });
-    assert_eq!(koma_of(&laid, Origin::Pinned), [28.2]);
-    assert_eq!(koma_of(&laid, Origin::Step), all_but(1..3));
 }
 
 #[test]
@@ -208,7 +209,7 @@ fn a_phase_can_be_moved() {
     let moved = Move { from: Frame(5 * 31), to: Frame(5 * 32), name: None, weight: None };
     let laid = laid(&Edits { moves: vec![moved], ..Edits::default() });
     assert_eq!(koma_of(&laid, Origin::Moved { from: Frame(155) }), [32.0]);
-    assert_eq!(koma_of(&laid, Origin::Step), all_but(2..3));
+    assert_eq!(koma_of(&laid, Origin::Step), without(31.0..31.1));
 }
 
 #[test]

@@ -151,10 +151,10 @@ impl Placing {
         let mut at = begin;
         let mut begins = Vec::new();
         let exposures = self.exposures.of_step((end - begin).max(0) as usize);
-        for (exposure, is_forbidden) in exposures.into_iter().zip(&step.forbidden) {
+        for (exposure, is_taken) in exposures.into_iter().zip(&step.taken) {
             begins.push(at);
-            // An inbetween takes the place of a forbidden genga.
-            for (from, to) in exposure.cuts().skip(usize::from(!is_forbidden)) {
+            // An inbetween takes the place of a genga that is taken away.
+            for (from, to) in exposure.cuts().skip(usize::from(!is_taken)) {
                 if let Some(koma) = on_sheet(at + from as isize) {
                     steps.inbetweens.insert(koma, to - from);
                 }

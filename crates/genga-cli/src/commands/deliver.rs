@@ -74,6 +74,8 @@ pub(super) fn run(args: &DeliverArgs, words: &Words) -> Result<(), Failure> {
     let motion = args.reading.read_for((sheet, &file), &args.clip, words)?;
     let place = Folder::look(folder, args.formats.over());
     place.check(&motion.of)?;
+    let said = formats.over(&place.settings(&motion.of), &args.formats)?;
+    said.iter().for_each(|note| words.say(format_args!("note        {note}")));
     let cut = Cut {
         name: &file.cut,
         clip_file: &paths::file_name(&args.clip),
@@ -101,8 +103,15 @@ pub(super) fn run(args: &DeliverArgs, words: &Words) -> Result<(), Failure> {
     unmade.iter().for_each(|warning| words.lose(warning));
     let (clip, stale) = (motion.of.clone(), written.stale);
     let there = place.formats(&clip);
-    let made =
-        Made { clip, recipe: None, formats: formats.names(), stale, adds: true, given: None };
+    let made = Made {
+        clip,
+        recipe: None,
+        formats: formats.names(),
+        settings: formats.own_settings(),
+        stale,
+        adds: true,
+        given: None,
+    };
     let left = place.finish(bundle, made)?;
     for layer in &file.sheet.layers {
         let (name, koma, genga) = (&layer.name, layer.length(), layer.genga());

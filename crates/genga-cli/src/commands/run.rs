@@ -66,7 +66,7 @@ const KEPT_WITHOUT: &str = "recipe.toml is the recipe that was given, in your ow
 
 pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
     let mut plan = Plan::from_args(&args.plan)?;
-    let formats = Formats::new(
+    let mut formats = Formats::new(
         "deliver",
         &args.deliver,
         &Run::FORMATS,
@@ -90,7 +90,17 @@ pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
     let place = Folder::look(&folder, args.formats.over());
     place.check(&of)?;
     let again = again(args, &place, &of, &formats);
-    let formats = formats.with(&again);
+    formats = formats.with(&again);
+    let mut kept_formats = match args.fresh {
+        true => vec![],
+        false => formats.over(&place.settings(&of), &args.formats)?,
+    };
+    if !again.is_empty() {
+        let again = again.join(", ");
+        kept_formats.push(format!(
+            "also written, as the folder has them: {again} (--deliver names others)"
+        ));
+    }
     let recipe = args.plan.corrections.settings.recipe.as_deref().and_then(Path::parent);
     let beside = recipe.filter(|beside| Folder::look(beside, args.formats.over()).is_of(&of));
     let own = place.is_of(&of).then_some(&*folder);
@@ -131,13 +141,10 @@ pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
     drop(working);
 
     summary(words, &name, &report);
-    if !again.is_empty() {
-        words.say(format_args!(
-            "note        also written, as the folder has them: {} (--deliver names others)",
-            again.join(", ")
-        ));
-    }
-    kept_corrections.iter().for_each(|line| words.say(format_args!("note        {line}")));
+    kept_formats
+        .iter()
+        .chain(&kept_corrections)
+        .for_each(|line| words.say(format_args!("note        {line}")));
     outcomes::of_corrections(edits, &breakdown)
         .iter()
         .for_each(|line| words.say(format_args!("correction  修正       {line}")));
@@ -195,14 +202,22 @@ fn given<'a>(args: &'a RunArgs, folder: &Path) -> Option<&'a Path> {
 }
 
 /// Reason to keep the folder's recipe unchanged. `None` to write it: there was no `--recipe`, or overwriting it loses
-/// nothing.
+/// no comment.
 fn kept(given: Option<&Path>, used: (&Recipe, &Edits)) -> Option<&'static str> {
     let text = String::from_utf8(files::read(given?).ok()?).ok()?;
     match Recipe::parse(&text) {
-        Ok((recipe, edits)) if recipe.write(&edits) == text => None,
+        Ok((recipe, edits)) if is_edit_of(&text, &recipe.write(&edits)) => None,
         Ok((recipe, edits)) if (&recipe, &edits) == used => Some(KEPT),
         _ => Some(KEPT_WITHOUT),
     }
+}
+
+/// Whether a recipe is one that genga wrote and a person changed, without comments that would be lost if it was written
+/// again.
+fn is_edit_of(text: &str, written: &str) -> bool {
+    let comments = text.lines().filter_map(|line| Some(line.split_once('#')?.1.trim()));
+    text.lines().next() == written.lines().next()
+        && comments.filter(|comment| !comment.is_empty()).all(|comment| written.contains(comment))
 }
 
 fn summary(words: &Words, cut: &str, report: &Report) {

@@ -191,7 +191,7 @@ fn pace(sheet: &Sheet) -> Counts {
         koma,
         drawings,
         genga: layer.genga(),
-        drawings_per_second: drawings as f64 * sheet.clock.koma_rate / koma.max(1) as f64,
+        drawings_per_second: layer.drawings_per_second(sheet.clock.koma_rate),
         holds,
     }
 }

@@ -182,7 +182,7 @@ impl Measure {
         let per_second = |count: usize| count as f64 * koma_rate / layer.length() as f64;
         match self {
             Self::Drawings => layer.shown().count() as f64,
-            Self::DrawingsPerSecond => per_second(layer.shown().count()),
+            Self::DrawingsPerSecond => layer.drawings_per_second(koma_rate),
             Self::Genga => layer.genga() as f64,
             Self::GengaPerSecond => per_second(layer.genga()),
             Self::LongestHold => layer.longest_hold() as f64,

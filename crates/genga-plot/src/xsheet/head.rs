@@ -94,7 +94,8 @@ fn drawings(leaf: &Leaf<'_>) -> usize {
 
 fn count(leaf: &Leaf<'_>) -> String {
     let (layer, drawings) = (leaf.layer, drawings(leaf));
-    let mean = layer.length() as f64 / drawings.max(1) as f64;
+    // A drawing of a loop comes in every round.
+    let mean = layer.length() as f64 / layer.changes().count().max(1) as f64;
     format!(
         "{}:  原画 genga {} ({} ends 端 among them)  ·  動画 drawings {drawings}, inbetweens 中割り {}  ·  \
          平均 mean {mean:.1} koma a drawing  ·  最長の止め longest hold {} koma",
