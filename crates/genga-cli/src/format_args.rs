@@ -45,7 +45,7 @@ impl LookArgs {
     /// Whether a setting is given.
     fn gives(&self, name: &str) -> bool {
         self.with.iter().any(|(given, _)| given == name)
-            || (name == "figures.camera" && self.camera.is_some())
+            || (name.ends_with(CAMERA) && self.camera.is_some())
     }
 
     fn put(&self, settings: &mut Settings) -> Result<(), Failure> {
@@ -362,13 +362,8 @@ impl Formats {
             (kept, "settings of formats, as the folder has them (--fresh goes without)"),
             (lost, "settings of formats that do not stay; give them again"),
         ];
-        let listed = |settings: Vec<(&String, &String)>| {
-            let options =
-                settings.into_iter().map(|(name, value)| quoted(&format!("{name}={value}")));
-            options.map(|option| format!("--with {option}")).collect::<Vec<_>>().join(" ")
-        };
         let said = said.into_iter().filter(|(settings, _)| !settings.is_empty());
-        Ok(said.map(|(settings, what)| format!("{what}: {}", listed(settings))).collect())
+        Ok(said.map(|(settings, what)| format!("{what}: {}", options(&settings))).collect())
     }
 
     /// The settings that differ from the defaults, by name.
@@ -465,6 +460,19 @@ impl Formats {
 /// Reads an MMD model from a file.
 fn model(path: &Path) -> Result<MmdModel, Failure> {
     MmdModel::read(&files::read(path)?).map_err(files::fault_of(path))
+}
+
+/// The last part of the names of settings that `--camera` sets.
+const CAMERA: &str = ".camera";
+
+/// Writes settings of formats as options.
+fn options(settings: &[(&String, &String)]) -> String {
+    let of_all = settings.iter().find(|(name, _)| *name == "figures.camera").map(|(_, of)| *of);
+    let is_of_all = |name: &str, value: &String| name.ends_with(CAMERA) && of_all == Some(value);
+    let own = settings.iter().filter(|(name, value)| !is_of_all(name, value));
+    let own = own.map(|(name, value)| format!("--with {}", quoted(&format!("{name}={value}"))));
+    let camera = of_all.map(|camera| format!("--camera {camera}"));
+    camera.into_iter().chain(own).collect::<Vec<_>>().join(" ")
 }
 
 /// Shortens a long list of names to the first and the last.
