@@ -96,8 +96,7 @@ fn settings_of_formats_stay_with_them() {
     let with = "--with remap.pictures=shot_%04d.png --with csv.bom=true --camera front";
     place.done(&format!("run data/kick.bvh --deliver contact {with} --out a"));
     let said = place.said("run data/kick.bvh --pin 61 --out a");
-    let kept =
-        "--with csv.bom=true --with figures.camera=front --with remap.pictures=shot_%04d.png";
+    let kept = "--camera front --with csv.bom=true --with remap.pictures=shot_%04d.png\n";
     assert!(said.contains(kept), "{said}");
     place.done("run data/kick.bvh --out b");
     place.done(&format!("run data/kick.bvh --pin 61 --deliver contact {with} --out b"));
