@@ -1,6 +1,7 @@
 //! The recipe: every setting of the chain, one settings struct per stage, in one small TOML file together with a
 //! person's corrections.
 
+mod doubts;
 mod file;
 mod footage;
 mod knobs;

@@ -327,6 +327,38 @@ fn plateaus_are_named_of_each_clip_and_of_all() {
     assert!(lines(&said, 6).iter().all(|line| line.contains("keys.per_second ")), "{said}");
 }
 
+#[test]
+fn settings_that_are_probably_not_meant_are_told() {
+    let place = Place::new();
+    let unit = " is in the unit of speed.measure=combined a second, and may hide";
+    for args in [
+        "study data/kick.bvh --set speed.measure=combined",
+        "study data/kick.bvh --x speed.measure=rotation,combined --measure union",
+        "keys data/kick.bvh --set speed.measure=combined --per-joint",
+        "run data/kick.bvh --set speed.measure=combined --out a",
+    ] {
+        let said = text(&place.genga(args).stderr);
+        assert_eq!(said.matches(unit).count(), 1, "{args}: {said}");
+    }
+    let said = text(
+        &place
+            .genga("study data/kick.bvh --x turns.steady=1,5% --set speed.measure=combined")
+            .stderr,
+    );
+    assert!(!said.contains(unit), "{said}");
+    let said = place.said("run data/kick.bvh --set filter.width=0.2 --out b");
+    assert!(
+        said.contains("filter.width: 0.2 is less than a frame; seconds are written 0.2s"),
+        "{said}"
+    );
+    // A short recipe goes over the one that a study begins with.
+    fs::write(place.path("r.toml"), "[spacing]\non = 2\n").unwrap();
+    let said = text(&place.genga("study data/kick.bvh --recipe r.toml").stderr);
+    assert!(said.contains("r.toml, over that of Table 1"), "{said}");
+    let said = place.said("run data/kick.bvh --set exaggerate.ease=1 --deliver ae --out c");
+    assert_eq!(said.matches("[W_EXAGGERATED]").count(), 1, "{said}");
+}
+
 /// A night's work on many clips is not lost to one of them.
 #[test]
 fn a_broken_clip_does_not_end_the_table_of_the_others() {

@@ -171,8 +171,9 @@ impl<'a> Plan<'a> {
             None => args.meet(engine, recipe, edits)?,
             Some(file) => args.pin_marked(file, engine, (recipe, edits), note)?,
         };
-        args.tell(&met, recipe, words)?.into_iter().for_each(note);
+        args.tell(&met, recipe, words)?.into_iter().for_each(&mut *note);
         *recipe = met.recipe;
+        recipe.doubts(engine.clip()).into_iter().for_each(note);
         Ok(())
     }
 }

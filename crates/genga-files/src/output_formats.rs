@@ -9,7 +9,7 @@ use crate::films::{Film, shortened};
 use crate::settings::Settings;
 use crate::{
     Cut, Drawings, Rows, Sink, after_effects, columns_csv, figures, films, keys_bvh, limited_bvh,
-    pictures, remap_csv, sheet_csv, sheet_json, sts, vrma, xdts, xsheet,
+    pictures, remap, remap_csv, sheet_csv, sheet_json, sts, vrma, xdts, xsheet,
 };
 use genga::error::{Error, Warning, did_you_mean};
 use genga::sheet::{Layer, Sheet};
@@ -97,6 +97,7 @@ pub const FORMATS: &[Format] = &[
             put("remap.csv", &settings.csv.encode(remap_csv(cut.sheet)?))?;
             settings.remap.write(cut, put)
         },
+        notes: |cut, _| Ok(remap::notes(cut)),
         ..PLAIN
     },
     Format {
@@ -172,7 +173,7 @@ pub const FORMATS: &[Format] = &[
         goes_to: "After Effects, paper",
         files: &["ae/A.txt"],
         make: |cut, _, put| after_effects::write(cut.sheet, put),
-        notes: |cut, _| Ok(after_effects::notes(cut.sheet)),
+        notes: |cut, _| Ok([after_effects::notes(cut.sheet), remap::notes(cut)].concat()),
         ..PLAIN
     },
     Format {

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use serde::{Deserialize, Serialize};
 
 use crate::{Cut, Sink, csv_table, number};
-use genga::error::Error;
+use genga::error::{Error, Warning};
 use genga::knob::{Knobs, knob, knobs};
 use genga::sheet::{Layer, RootMotion, Sheet};
 use genga::time::{Frame, FrameRate};
@@ -160,6 +160,14 @@ fn nearest(layer: &Layer, drawing: usize) -> usize {
 /// Quotes a word for ffmpeg's lists.
 fn quoted(word: &str) -> String {
     format!("'{}'", word.replace('\'', "'\\''"))
+}
+
+/// Warns that the instants of an exaggerated motion are those of the take, which is not shown as it is.
+pub(crate) fn notes(cut: &Cut<'_>) -> Vec<Warning> {
+    let message = "exaggerate.*: source frames, also those of remap.csv, name instants of the take before it was \
+                   exaggerated; a rig that plays the take shows other poses";
+    let exaggerated = cut.exaggerated.is_some();
+    exaggerated.then(|| Warning::new("W_EXAGGERATED", message)).into_iter().collect()
 }
 
 /// Writes `koma,source_frame,source_time_s,nearest_frame`: the timing alone, for any rig that plays the same

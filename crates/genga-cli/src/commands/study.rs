@@ -174,11 +174,17 @@ pub(super) fn run(args: &StudyArgs, words: &Words) -> Result<(), Failure> {
     }
     files::write(&args.out, genga_files::study_csv(&names, &grids, tolerance)?.as_bytes())?;
     let begins = match (&args.settings.recipe, is_table_1(args, &study.x, study.y.as_ref())) {
-        (Some(path), _) => path.display().to_string(),
+        (Some(path), true) => {
+            format!("{}, over that of Table 1 (genga recipe --study)", path.display())
+        }
+        (Some(path), false) => path.display().to_string(),
         (None, true) => "that of Table 1 (genga recipe --study)".into(),
         (None, false) => "that of genga run".into(),
     };
     words.say(format_args!("recipe      設定       {begins}"));
+    dead_band_in_doubt(&study)
+        .iter()
+        .for_each(|note| words.say(format_args!("note        {note}")));
     let seconds = study.in_seconds(&rates);
     seconds.iter().for_each(|line| words.say(format_args!("seconds     {line}")));
     if tells_turns_apart(&study.measures) {
@@ -198,6 +204,21 @@ pub(super) fn run(args: &StudyArgs, words: &Words) -> Result<(), Failure> {
 /// What is said of turns, for the report of a run calls those of the joints `turns` too.
 const TURNS: &str = "turns       変わり目   turns: of the body; union, total: keys of joints \
                      (in report.json turns.union, turns.total)";
+
+/// Says that the dead band may not fit the measure of the recipe, or one that an axis takes.
+fn dead_band_in_doubt(study: &Study) -> Option<String> {
+    let axes = || [Some(&study.x), study.y.as_ref()].into_iter().flatten();
+    if axes().any(|axis| axis.name() == "turns.steady") {
+        return None;
+    }
+    let measures = axes().filter(|axis| axis.name() == "speed.measure").flat_map(Axis::values);
+    let other = |measure: &String| {
+        let mut recipe = study.recipe.clone();
+        recipe.set("speed.measure", measure).ok()?;
+        recipe.dead_band_in_doubt()
+    };
+    study.recipe.dead_band_in_doubt().or_else(|| measures.into_iter().find_map(other))
+}
 
 /// Whether turns of the body and turns of the joints are columns of one table.
 fn tells_turns_apart(measures: &[Measure]) -> bool {
@@ -257,7 +278,7 @@ fn sentence(grid: &Grid, koma: f64, plateau: Option<&Plateau>) -> String {
         Some(_) => "the recipe\u{2019}s own settings stand beside it",
     };
     let (place, keys) = (plateau.words(grid), counted(plateau.keys, "key"));
-    format!("{same} {place}, {keys} between the first and the last drawing; {own}")
+    format!("{same} {place}, {keys} before they are timed; {own}")
 }
 
 fn asked(args: &StudyArgs) -> Result<Study, Failure> {
