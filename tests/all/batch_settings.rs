@@ -93,6 +93,24 @@ fn parts_of_different_settings_are_not_joined() {
     assert_eq!(exit, 0, "{said}");
 }
 
+#[test]
+fn corrections_of_frames_in_a_recipe_are_of_one_clip() {
+    let place = Place::new();
+    place.done("run data/kick.bvh --pin 42:contact --forbid 50 --cut 12 --out a");
+    let said =
+        place.refused(2, "batch data/kick.bvh data/pitch.bvh --recipe a/recipe.toml --out b");
+    assert!(said.contains("a/recipe.toml: has corrections of frames"), "{said}");
+    assert!(said.contains("2 clips are to have them: pin 42, forbid 50; "), "{said}");
+    assert!(!place.path("b").exists());
+    // One clip, however often, has them, and so has each clip that a table names them for.
+    place.done("batch data/kick.bvh data/kick.bvh --recipe a/recipe.toml --out b");
+    let table = "clip,recipe\ndata/kick.bvh,a/recipe.toml\ndata/pitch.bvh,\n";
+    let (exit, said) = of_table(&place, "t.csv", table);
+    assert_eq!(exit, 0, "{said}");
+    place.done("run data/kick.bvh --cut 12 --set spacing.on=3 --out slate");
+    place.done("batch data/kick.bvh data/pitch.bvh --recipe slate/recipe.toml --out c");
+}
+
 /// Runs a batch of a table, `data/` in which is the repository's.
 fn of_table(place: &Place, name: &str, table: &str) -> (i32, String) {
     let data = crate::clips::here("data").to_string_lossy().into_owned() + "/";

@@ -223,6 +223,37 @@ fn another_part_of_the_take_than_the_recipes_run_is_told() {
 }
 
 #[test]
+fn corrections_of_another_motion_in_a_recipe_are_told() {
+    let place = Place::new();
+    let says = "a/recipe.toml has corrections of another motion, kick.bvh, which are made in this one too: pin 42; ";
+    place.done("run data/kick.bvh --pin 42 --out a");
+    assert!(place.said("run data/pitch.bvh --recipe a/recipe.toml --out b").contains(says));
+    let same = place.said("run data/kick.bvh --recipe a/recipe.toml --out c");
+    assert!(!same.contains("another motion"), "{same}");
+}
+
+#[test]
+fn a_fault_in_a_recipe_names_its_file() {
+    let place = Place::new();
+    for (recipe, asked, says) in [
+        ("[edits]\npins = [{ frame = 900 }]\n", "", "mine.toml: edits: pinned frame 900"),
+        ("[edits]\npins = [{ frame = 900 }]\n", "--pin 9", "mine.toml: edits: pinned frame 900"),
+        ("[edits]\npins = [{ frame = 9 }]\n", "--pin 900", "genga: edits: pinned frame 900"),
+        (
+            "[[edits.layers.B.pins]]\nframe = 9\n",
+            "--keys 9",
+            "mine.toml: edits: there is no layer B",
+        ),
+        ("[keys.weights]\nHipps = 0\n", "", "mine.toml: keys.weights.Hipps: "),
+        ("rate = 24\n", "--set keys.weights.Hipps=0", "genga: keys.weights.Hipps: "),
+    ] {
+        fs::write(place.path("mine.toml"), recipe).unwrap();
+        let said = place.refused(2, &format!("run data/kick.bvh --recipe mine.toml {asked}"));
+        assert!(said.contains(says), "{recipe}{asked}: {said}");
+    }
+}
+
+#[test]
 fn a_long_held_inbetween_is_told_and_a_pin_makes_it_a_genga() {
     let place = Place::new();
     let says = "an inbetween, drawing ";

@@ -162,6 +162,14 @@ impl Settings {
         Ok((recipe, edits))
     }
 
+    /// Names of the settings that the recipe changes, without those of `--set`.
+    pub(super) fn changed(&self, read: &Recipe) -> Vec<String> {
+        let usual = Recipe::default().settings();
+        let is_here = |name: &str| self.set.iter().any(|(own, _)| own == name);
+        let own = read.settings().into_iter().filter(|setting| !usual.contains(setting));
+        own.map(|(name, _)| name).filter(|name| !is_here(name)).collect()
+    }
+
     /// Sets those settings that are of one layer.
     fn set_layers(&self, recipe: &mut Recipe) -> Result<(), Failure> {
         let mut of_layers = self.set.iter().filter(|(name, _)| name.contains('/'));

@@ -97,14 +97,14 @@ fn usable(before: Edits, recipe: &Recipe, engine: &Engine) -> Result<Edits, Fail
 /// Maximum number of corrections in a full list.
 const MOST: usize = 12;
 
-fn shortened_list(corrections: Vec<String>) -> String {
+pub(super) fn shortened_list(corrections: Vec<String>) -> String {
     let count = corrections.len();
     let shown = if count > MOST { shortened(corrections) } else { corrections };
     shown.join(", ")
 }
 
 /// Lists corrections in command-line form.
-fn list(edits: &Edits) -> Vec<String> {
+pub(super) fn list(edits: &Edits) -> Vec<String> {
     let mut list = marks("", &edits.pins, &edits.forbidden, &edits.moves);
     for (name, own) in &edits.layers {
         list.extend(marks(&format!("{name}/"), &own.pins, &own.forbidden, &own.moves));

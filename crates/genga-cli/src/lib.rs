@@ -50,6 +50,7 @@ mod sheets;
 mod shell;
 mod staging;
 mod stop;
+mod whose_corrections;
 
 use std::process::ExitCode;
 

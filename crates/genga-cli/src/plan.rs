@@ -8,7 +8,8 @@ use super::clip::ClipArgs;
 use super::console::Words;
 use super::corrections::Corrections;
 use super::failure::Failure;
-use super::{camera_args, files, freeze_args, pin_args, sheets};
+use super::paths::named;
+use super::{camera_args, files, freeze_args, pin_args, sheets, whose_corrections};
 use genga::edits::Edits;
 use genga::error::{Error, Warning};
 use genga::motion::Description;
@@ -85,6 +86,10 @@ pub(super) struct Plan<'a> {
     pub(super) edits: Edits,
     /// Whether the recipe that was read has corrections, without those of the command line.
     pub(super) is_corrected: bool,
+    /// Those corrections.
+    pub(super) read: Edits,
+    /// Names of the settings that the recipe changes, without those of the command line.
+    set: Vec<String>,
 }
 
 impl PlanArgs {
@@ -120,16 +125,46 @@ impl PlanArgs {
 impl<'a> Plan<'a> {
     /// Builds a plan from a recipe and corrections already read.
     pub(super) fn with(args: &'a PlanArgs, recipe: Recipe, edits: Edits) -> Self {
-        Self { args, recipe, edits, is_corrected: true }
+        Self { args, recipe, edits, is_corrected: true, read: Edits::default(), set: vec![] }
     }
 
     /// Reads the recipe, and refuses what is impossible whatever the motion is.
     pub(super) fn from_args(args: &'a PlanArgs) -> Result<Self, Failure> {
         args.targets.check(&args.corrections)?;
         let read = args.corrections.settings.read(Recipe::default())?;
-        let is_corrected = read.1 != Edits::default();
+        let (set, of_recipe) = (args.corrections.settings.changed(&read.0), read.1.clone());
         let (recipe, edits) = args.corrections.put_over(read)?;
-        Ok(Self { args, recipe, edits, is_corrected })
+        let is_corrected = !of_recipe.is_empty();
+        Ok(Self { args, recipe, edits, is_corrected, read: of_recipe, set })
+    }
+
+    /// Returns a function that adds a file's path to an error: that of the recipe if the fault is in it, else the
+    /// clip's.
+    pub(super) fn fault_of(&self, engine: &Engine) -> impl Fn(Error) -> Failure + use<> {
+        let (clip, recipe) = (engine.clip(), self.args.corrections.settings.recipe.clone());
+        let wrong = self.read.validate(clip.first(), clip.last()).err();
+        let wrong = wrong.map(|error| error.to_string());
+        let is_corrected_there = !self.read.is_empty() && self.edits == self.read;
+        let (path, set) = (self.args.clip.path.clone(), self.set.clone());
+        move |error| {
+            let is_there = match &error {
+                Error::Edits { .. } => is_corrected_there || wrong == Some(error.to_string()),
+                Error::Setting { name, .. } => set.contains(name),
+                _ => false,
+            };
+            match recipe.as_deref().filter(|_| is_there) {
+                Some(recipe) => {
+                    Failure::AskedWrongly(format!("{}: {error}", named(recipe).display()))
+                }
+                None => files::fault_of(&path)(error),
+            }
+        }
+    }
+
+    /// Says whose corrections the recipe has, if they are of another motion.
+    pub(super) fn of_another(&self, clip: &ClipMark) -> Option<String> {
+        let recipe = self.args.corrections.settings.recipe.as_deref()?;
+        whose_corrections::of_another(recipe, &self.read, clip)
     }
 
     /// Reads the motion and the camera. Warnings go to `note`. Also returns the mark that identifies the motion.
@@ -163,13 +198,14 @@ impl<'a> Plan<'a> {
         words: &Words,
         note: &mut dyn FnMut(String),
     ) -> Result<(), Failure> {
+        let fault = self.fault_of(engine);
         let Self { args, recipe, edits, .. } = self;
         freeze_args::freeze(&args.corrections, engine, recipe, edits)?
             .into_iter()
             .for_each(&mut *note);
         let met = match &args.corrections.pin_from {
-            None => args.meet(engine, recipe, edits)?,
-            Some(file) => args.pin_marked(file, engine, (recipe, edits), note)?,
+            None => args.meet(engine, (recipe, edits), &fault)?,
+            Some(file) => args.pin_marked(file, engine, (recipe, edits), (&fault, note))?,
         };
         args.tell(&met, recipe, words)?.into_iter().for_each(&mut *note);
         *recipe = met.recipe;
@@ -186,27 +222,32 @@ impl PlanArgs {
         file: &Path,
         engine: &mut Engine,
         (recipe, edits): (&Recipe, &mut Edits),
-        note: &mut dyn FnMut(String),
+        (fault, note): (&dyn Fn(Error) -> Failure, &mut dyn FnMut(String)),
     ) -> Result<Met, Failure> {
         // The marked keys may be the only ones, so they are compared with a sheet that has others.
         let unmarked = Edits { only_pins: false, ..edits.clone() };
-        let mut met = self.meet(engine, recipe, &unmarked)?;
-        let mut sheet = self.sheet(engine, &met.recipe, &unmarked)?;
+        let mut met = self.meet(engine, (recipe, &unmarked), fault)?;
+        let mut sheet = sheet_of(engine, &met.recipe, &unmarked).map_err(fault)?;
         let column = self.corrections.pin_column.as_deref();
         let mut marked = pin_args::read((file, column), engine, &sheet)?;
         let layer = pin_args::layer(&marked.column, engine, recipe)?.map(String::from);
         let place = (layer.as_deref(), engine.clip().clock(recipe.rate));
         // A pin may take the place of another marked key, which is then pinned too.
         while marked.pin(&sheet, place, edits) {
-            met = self.meet(engine, recipe, edits)?;
-            sheet = self.sheet(engine, &met.recipe, edits)?;
+            met = self.meet(engine, (recipe, edits), fault)?;
+            sheet = sheet_of(engine, &met.recipe, edits).map_err(fault)?;
         }
         marked.notes(&sheet, (layer.as_deref(), edits)).into_iter().for_each(note);
         Ok(met)
     }
 
     /// Finds the settings that meet the targets.
-    fn meet(&self, engine: &mut Engine, recipe: &Recipe, edits: &Edits) -> Result<Met, Failure> {
+    fn meet(
+        &self,
+        engine: &mut Engine,
+        (recipe, edits): (&Recipe, &Edits),
+        fault: &dyn Fn(Error) -> Failure,
+    ) -> Result<Met, Failure> {
         let targets = self.targets.targets();
         if targets.is_empty() {
             return Ok(Met { recipe: recipe.clone(), outcomes: vec![] });
@@ -218,14 +259,8 @@ impl PlanArgs {
             {
                 Failure::AskedWrongly(format!("--{name}: {message}"))
             }
-            other => files::fault_of(&self.clip.path)(other),
+            other => fault(other),
         })
-    }
-
-    /// Makes the sheet.
-    fn sheet(&self, engine: &mut Engine, recipe: &Recipe, edits: &Edits) -> Result<Sheet, Failure> {
-        let breakdown = engine.run(recipe, edits).map_err(files::fault_of(&self.clip.path))?;
-        Ok(breakdown.sheet.clone())
     }
 
     /// Prints the settings that meet the targets, and returns a sentence for each target that could not be met. `recipe` has
@@ -286,6 +321,11 @@ fn furthest_off(met: &Met) -> Option<f64> {
     let mut met_ones = met.outcomes.iter().filter(|outcome| outcome.shortfall.is_none());
     let of_error = met_ones.find(|outcome| matches!(outcome.target, Target::MaxError(_)));
     of_error.map(|outcome| outcome.reached)
+}
+
+/// Makes the sheet.
+fn sheet_of(engine: &mut Engine, recipe: &Recipe, edits: &Edits) -> Result<Sheet, Error> {
+    engine.run(recipe, edits).map(|breakdown| breakdown.sheet.clone())
 }
 
 /// Returns the settings that changed, as `KEY=VALUE` for `--set`.

@@ -39,6 +39,16 @@ pub(crate) struct Own {
     pub(crate) row: String,
 }
 
+impl Own {
+    /// Whether an option is among them.
+    pub(crate) fn has(&self, option: &str) -> bool {
+        let is_it = |word: &String| {
+            word.strip_prefix("--").and_then(|word| word.split('=').next()) == Some(option)
+        };
+        self.words.iter().any(is_it)
+    }
+}
+
 /// A clip's path and its own options.
 type Named = (PathBuf, Own);
 

@@ -1,6 +1,6 @@
 //! Processes one clip of a batch: reads it, draws it, writes it to staging.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs::{self, File};
 use std::io::{self, Read};
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -16,7 +16,7 @@ use super::super::numbers::{self, Numbering};
 use super::super::plan::{Plan, PlanArgs};
 use super::super::sheets::SHEET;
 use super::super::staging::Staging;
-use super::super::{files, paths, stop};
+use super::super::{files, paths, stop, whose_corrections};
 use super::list::Item;
 use super::pack::Parcel;
 use super::place;
@@ -33,7 +33,9 @@ pub(crate) struct Asked<'a> {
     formats: &'a Formats,
     recipe: Recipe,
     edits: Edits,
-    /// Digest of them.
+    /// The corrections in the recipe, without those of the command line.
+    read: Edits,
+    /// Digest of the options.
     pub(crate) digest: String,
 }
 
@@ -46,9 +48,18 @@ struct OfOne {
 
 impl<'a> Asked<'a> {
     pub(crate) fn new(plan: &'a PlanArgs, formats: &'a Formats) -> Result<Self, Failure> {
-        let Plan { recipe, edits, .. } = Plan::from_args(plan)?;
+        let Plan { recipe, edits, read, .. } = Plan::from_args(plan)?;
         let digest = digest(plan, formats, &recipe, &edits)?;
-        Ok(Self { plan, formats, recipe, edits, digest })
+        Ok(Self { plan, formats, recipe, edits, read, digest })
+    }
+
+    /// Refuses a recipe for all clips whose corrections are of frames.
+    pub(crate) fn check(&self, items: &[Item]) -> Result<(), Failure> {
+        let Some(recipe) = &self.plan.corrections.settings.recipe else { return Ok(()) };
+        let takes_it = |item: &&Item| !item.own.has("recipe");
+        let clips: BTreeSet<&Path> =
+            items.iter().filter(takes_it).map(|item| &*item.path).collect();
+        whose_corrections::check(recipe, &self.read, clips.len())
     }
 
     /// Returns the settings of a clip, its own options included, and a digest of all.

@@ -114,6 +114,7 @@ pub(super) fn run(args: &BatchArgs, words: &Words) -> Result<(), Failure> {
     let plan = PlanArgs::new(clip, args.corrections.clone(), args.targets.clone());
     let asked = Asked::new(&plan, &formats)?;
     let items = clips(args, words)?;
+    asked.check(&items)?;
     let batch = Batch::begin(args, &items, &asked, &formats)?;
     batch.state().journal.note().iter().for_each(|note| words.say(note));
     batch.work(words)?;

@@ -31,7 +31,8 @@ pub(super) fn run(args: &KeysArgs, words: &Words) -> Result<(), Failure> {
     let mut plan = Plan::from_args(&args.plan)?;
     let (mut engine, _) = plan.read(&mut |warning| words.warn(warning))?;
     plan.settle(&mut engine, words, &mut |note| words.say(note))?;
-    let breakdown = engine.run(&plan.recipe, &plan.edits).map_err(files::fault_of(clip))?;
+    let fault = plan.fault_of(&engine);
+    let breakdown = engine.run(&plan.recipe, &plan.edits).map_err(fault)?;
     let idle = run_notes::idle(&plan.edits, &breakdown);
     let unmoved = run_notes::unmoved(&plan.edits, &breakdown);
     unmoved.iter().chain(&idle).for_each(|note| words.say(note));

@@ -105,6 +105,7 @@ pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
     let beside = recipe.filter(|beside| Folder::look(beside, args.formats.over()).is_of(&of));
     let own = place.is_of(&of).then_some(&*folder);
     notes.extend(beside.or(own).and_then(|before| part_of_take::other(before, engine.clip())));
+    notes.extend(plan.of_another(&of));
     let is_again = !args.fresh && place.has_run_of(&of);
     let kept_corrections = match plan.is_corrected {
         false if is_again => kept::keep(&mut plan, &folder, &engine)?,
@@ -113,8 +114,8 @@ pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
     };
     working.on("finding the key drawings");
     plan.settle(&mut engine, words, &mut |note| notes.push(note))?;
-    let Plan { recipe, edits, .. } = &plan;
-    let breakdown = engine.run_once(recipe, edits).map_err(files::fault_of(clip))?;
+    let (Plan { recipe, edits, .. }, fault) = (&plan, plan.fault_of(&engine));
+    let breakdown = engine.run_once(recipe, edits).map_err(fault)?;
     let numbering = match args.fresh {
         true => Numbering::fresh(breakdown.sheet),
         false => Numbering::new(breakdown.sheet, &place, &of, args.renumber),
