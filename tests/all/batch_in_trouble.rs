@@ -5,7 +5,7 @@ use std::fs;
 use crate::batch::{code, library, results};
 use crate::cases::is_full;
 use crate::clips::here;
-use crate::program::{Place, text};
+use crate::program::{Place, column, text};
 
 fn kick() -> Vec<u8> {
     fs::read(here("data/kick.bvh")).unwrap()
@@ -151,6 +151,24 @@ fn two_batches_do_not_write_into_one_folder_at_once() {
     drop(other);
     assert_eq!(results(&place, "out"), before);
     place.done("batch lib/a --out out --set spacing.on=3");
+}
+
+#[test]
+fn a_clip_that_fails_is_named() {
+    let place = Place::new();
+    for name in ["kick.bvh", "pitch.bvh"] {
+        fs::copy(crate::clips::here(&format!("data/{name}")), place.path(name)).unwrap();
+    }
+    for asked in ["--pin 900", "--trim 900..1000", "--set keys.weights.Hipps=0"] {
+        let (exit, said) = code(&place, &format!("batch kick.bvh pitch.bvh {asked} --out out"));
+        assert_eq!(exit, 1, "{asked}: {said}");
+        assert!(said.contains("2 of 2 failed: kick.bvh: "), "{asked}: {said}");
+        let messages = column(&text(&results(&place, "out")["summary.csv"]), "message");
+        for (message, clip) in messages.iter().zip(["kick.bvh: ", "pitch.bvh: "]) {
+            assert!(message.starts_with(clip), "{asked}: {message}");
+            assert_eq!(message.matches(clip).count(), 1, "{asked}: {message}");
+        }
+    }
 }
 
 #[test]

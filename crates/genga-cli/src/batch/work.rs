@@ -238,11 +238,19 @@ impl<'a> Begun<'a> {
             Err(failure) if is_unwritten => return Err(failure),
             Err(failure) => {
                 let _ = fs::remove_dir_all(ready(""));
-                line.row = Row::failed(failure.to_string(), warnings);
+                line.row = Row::failed(named(item, &failure), warnings);
             }
         }
         Ok(line)
     }
+}
+
+/// The reason why a clip failed, with its path in front unless the reason names it.
+fn named(item: &Item, failure: &Failure) -> String {
+    let (path, message) = (item.path.display().to_string(), failure.to_string());
+    let row = Some(&item.own.row).filter(|row| !row.is_empty());
+    let is_named = row.into_iter().chain([&path]).any(|name| message.starts_with(name));
+    if is_named { message } else { format!("{path}: {message}") }
 }
 
 /// The results of a clip.
