@@ -76,7 +76,7 @@ pub fn raised_of(py: Python<'_>, error: genga::Error, file: Option<&Path>) -> Py
 /// What messages say of the program's commands and options, and what Python has in their place: nothing if it has none.
 const IN_PYTHON: [(&str, &str); 28] = [
     (
-        "`genga run --help` lists them and the options",
+        "`genga recipe` lists them, `genga run --help` the options",
         "genga.knobs() lists them, and help() of the function its arguments",
     ),
     (

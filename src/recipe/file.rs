@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use toml::de::{DeTable, DeValue};
 use toml::{Spanned, Value};
 
-use super::knobs::{KNOBS, unknown};
+use super::knobs::{KNOBS, unknown_section};
 use super::scopes::Scope;
 use super::{Footage, Knob, Recipe, Who};
 use crate::edits::Edits;
@@ -166,7 +166,7 @@ impl File<'_> {
             match value.get_ref() {
                 DeValue::Table(table) if name == STUDIES => self.take("", table)?,
                 DeValue::Table(table) if is_section(&name) => self.take(&name, table)?,
-                DeValue::Table(_) => return Err(self.wrong(key.span(), unknown(&name))),
+                DeValue::Table(_) => return Err(self.wrong(key.span(), unknown_section(&name))),
                 _ => self.set(name, key.span(), value)?,
             }
         }
@@ -331,7 +331,10 @@ mod tests {
         for (wrong, says) in [
             ("[spacing]\non = 0\n", "2:6: spacing.on: expected koma, 1 (ones) to 1000"),
             ("[filter]\nwidth = []\n", "2:9: filter.width: expected source frames or seconds"),
-            ("[filtre]\n", "1:2: filtre: there is no such setting"),
+            ("[filtre]\n", "1:2: filtre: there is no such setting; did you mean filter?"),
+            ("[spacng]\non = 2\n", "1:2: spacng: there is no such setting; did you mean spacing?"),
+            ("[edit]\n", "did you mean edits?"),
+            ("[edits]\npins = [{ frame = -3 }]\n", "`-3`, expected a whole number, 0 or more"),
             ("filter = 3\n", "1:1: filter: there is no such setting"),
             ("layers = []\n", "layers: the list has no layer"),
             ("[keys.weights]\nHips = -1\n", "2:8: keys.weights.Hips: expected a number, 0"),

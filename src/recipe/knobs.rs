@@ -8,6 +8,9 @@ use crate::recipe::Recipe;
 use crate::signal::{LowPass, Speed, TurnFinder};
 use crate::timing::{Omission, Spacing};
 
+/// Sections of a recipe that hold no knobs under their own names.
+const OTHER_SECTIONS: [&str; 6] = ["edits", "footage", "layer", "layers", "passages", "studies"];
+
 /// The knobs section by section, in the order of the chain.
 const SECTIONS: [&[Knob]; 9] = [
     Recipe::KNOBS,
@@ -76,6 +79,14 @@ pub(super) fn unknown(name: &str) -> Error {
     unknown_beside(name, &[])
 }
 
+/// Returns the error for an unknown section, with a similar name, of the sections or of the settings, as a hint.
+pub(super) fn unknown_section(name: &str) -> Error {
+    let mut sections: Vec<&str> = KNOBS.iter().filter_map(|knob| knob.path().0).collect();
+    sections.extend(OTHER_SECTIONS);
+    sections.dedup();
+    unknown_beside(name, &sections)
+}
+
 /// Returns the error for an unknown setting, with a similar name, of the settings or of `others`, as a hint.
 ///
 /// ```
@@ -89,9 +100,9 @@ pub fn unknown_beside(name: &str, others: &[&str]) -> Error {
             "there is no such setting; how much a joint counts is set by keys.weights.JOINT=2";
         return Error::setting(name, message);
     }
-    let hint = did_you_mean(name, KNOBS.iter().map(|knob| knob.name).chain(others.iter().copied()));
+    let hint = did_you_mean(name, others.iter().copied().chain(KNOBS.iter().map(|knob| knob.name)));
     Error::setting(name, match hint.is_empty() {
-        true => "there is no such setting of the method; `genga run --help` lists them and the options".into(),
+        true => "there is no such setting of the method; `genga recipe` lists them, `genga run --help` the options".into(),
         false => format!("there is no such setting{hint}"),
     })
 }

@@ -609,6 +609,8 @@ fn an_unknown_setting_is_answered_with_the_nearest() {
         let said = place.refused(2, &format!("keys data/kick.bvh --set {wrong}=1"));
         assert!(said.contains(&format!("did you mean {meant}?")), "{said}");
     }
+    let said = place.refused(2, "keys data/kick.bvh --set foo.bar=3");
+    assert!(said.contains("`genga recipe` lists them"), "{said}");
     let said = place.refused(2, "keys data/kick.bvh --set filter.kind=blur");
     assert!(said.contains("box, gaussian, ideal, butterworth"), "{said}");
 }
