@@ -175,6 +175,25 @@ pub fn refusal(error: &io::Error) -> String {
     words.into()
 }
 
+/// Says in words which number a reader of a file expected, in place of its type in Rust.
+///
+/// ```
+/// let said = genga::error::in_words("invalid type: floating point `1.5`, expected usize");
+/// assert_eq!(said, "invalid type: floating point `1.5`, expected a whole number, 0 or more");
+/// ```
+pub fn in_words(message: &str) -> String {
+    const TYPES: [(&str, &str); 5] = [
+        ("usize", "a whole number, 0 or more"),
+        ("u64", "a whole number, 0 or more"),
+        ("u32", "a whole number, 0 or more"),
+        ("i64", "a whole number"),
+        ("f64", "a number"),
+    ];
+    let Some((found, expected)) = message.rsplit_once("expected ") else { return message.into() };
+    let words = TYPES.iter().find(|(name, _)| *name == expected);
+    words.map_or_else(|| message.into(), |(_, words)| format!("{found}expected {words}"))
+}
+
 /// A position in a motion or model file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Place {

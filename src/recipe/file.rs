@@ -14,7 +14,7 @@ use super::knobs::{KNOBS, unknown_section};
 use super::scopes::Scope;
 use super::{Footage, Knob, Recipe, Who};
 use crate::edits::Edits;
-use crate::error::Error;
+use crate::error::{Error, in_words};
 
 /// The section of the researchers' knobs, keyed by their full names. A file may also keep them in their own sections.
 const STUDIES: &str = "studies";
@@ -220,7 +220,7 @@ fn line_and_column(text: &str, place: Range<usize>) -> (usize, usize) {
 fn not_read(text: &str, error: toml::de::Error) -> Error {
     Error::Recipe {
         place: error.span().map(|place| line_and_column(text, place)),
-        message: error.message().lines().next().unwrap_or_default().into(),
+        message: in_words(error.message().lines().next().unwrap_or_default()),
         source: Some(error.into()),
     }
 }

@@ -86,11 +86,11 @@ pub use vmd::{
 };
 pub use xsheet::{XSheetFiles, xsheet};
 
-/// The message of a JSON error without its line and column, which count within the parsed part only.
+/// The message of a JSON error without its line and column, which count within the parsed part only, nor types of Rust.
 fn json_words(error: &serde_json::Error) -> String {
     let words = error.to_string();
     let place = format!(" at line {} column {}", error.line(), error.column());
-    words.strip_suffix(&place).unwrap_or(&words).to_owned()
+    genga::error::in_words(words.strip_suffix(&place).unwrap_or(&words))
 }
 
 #[cfg(test)]

@@ -7,7 +7,7 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 use serde::Deserialize;
 use toml::Spanned;
 
-use crate::error::Error;
+use crate::error::{Error, in_words};
 use crate::motion::body::side::{DASHES, own_name};
 use crate::motion::body::{limbs, structure};
 use crate::motion::{Clip, Declared, JointId, Skeleton, plain_name};
@@ -101,8 +101,8 @@ impl BoneMap {
             let place = span.map(|span| place(text, span.start)).unwrap_or_default();
             Error::setting("bones", format!("{place}{message}"))
         };
-        let file: File =
-            toml::from_str(text).map_err(|error| failed(error.span(), error.message()))?;
+        let file: File = toml::from_str(text)
+            .map_err(|error| failed(error.span(), &in_words(error.message())))?;
         for (name, extra) in &file.extra {
             let bytes = cp932(name.get_ref(), LONGEST_NAME).map(drop);
             bytes

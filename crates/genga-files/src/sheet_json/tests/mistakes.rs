@@ -99,7 +99,7 @@ fn what_is_no_such_file_is_said_with_its_place() {
             "",
             "unknown variant `key`, expected one of `genga`",
         ),
-        ("\"fps\": 24", "\"fps\": \"24\"", "5:13: ", "invalid type: string \"24\", expected f64"),
+        ("\"fps\": 24", "\"fps\": \"24\"", "5:13: ", "string \"24\", expected a number"),
         ("\"fps\": 24,", "\"fps\": 24,,", "5:13: ", "key must be a string"),
         ("  \"fps\": 24,\n", "", "", "missing field `fps`"),
         ("\"fps\": 24", "\"fps\": 0", "5:10: ", "fps is 0; a sheet has 2 to 1000 koma a second"),
