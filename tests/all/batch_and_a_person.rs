@@ -277,3 +277,30 @@ fn a_painted_picture_whose_number_cannot_be_kept_fails_its_clip() {
     place.done(&other.replace("--out out", "--out fresh"));
     assert!(results(&place, "out") == results(&place, "fresh"));
 }
+
+#[test]
+fn folders_of_no_clip_of_the_batch_stay_and_are_told() {
+    let place = Place::new();
+    for name in ["a/kick.bvh", "a/Pitch.bvh", "b/kick.bvh", "b/swing.bvh"] {
+        let from = name[2..].to_lowercase();
+        fs::create_dir_all(place.path("lib").join(&name[..1])).unwrap();
+        let path = place.path("lib").join(name);
+        fs::copy(crate::clips::here(&format!("data/{from}")), path).unwrap();
+    }
+    let batch = "batch lib --deliver json,cut --out out";
+    assert!(!place.said(batch).contains("of no clip"));
+    assert!(!place.said(batch).contains("of no clip"));
+    fs::remove_file(place.path("lib/b/swing.bvh")).unwrap();
+    fs::rename(place.path("lib/a/Pitch.bvh"), place.path("lib/a/pitch.bvh")).unwrap();
+    let said = place.said(batch);
+    let says =
+        "2 folders in out/clips of no clip of this batch, which stay: a/Pitch.bvh b/swing.bvh\n";
+    assert!(said.contains(says), "{said}");
+    // Of one folder alone, the clips have other names.
+    let said = place.said("batch lib/b --out out");
+    let says = "2 folders in out/clips of no clip of this batch, which stay: a b\n";
+    assert!(said.contains(says), "{said}");
+    let said = place.said("batch lib --out out --shard 1/2");
+    assert!(!said.contains("of no clip"), "{said}");
+    assert!(place.path("out/clips/b/swing.bvh/sheet.json").exists());
+}

@@ -7,6 +7,7 @@
 //! row      a clip's row in the summary
 //! work     one clip: reads it, draws it, writes it to staging
 //! place    moves a clip's folder into its place
+//! left     folders that are of no clip
 //! pack     one archive instead of a folder per clip
 //! journal  finished clips, one a line, so that the next batch resumes from there
 //! pool     the worker threads: memory budget, and stopping at any time
@@ -14,6 +15,7 @@
 //! ```
 
 pub(super) mod journal;
+pub(super) mod left;
 pub(super) mod list;
 pub(super) mod own_results;
 pub(super) mod pack;

@@ -33,6 +33,8 @@ pub(crate) struct Count {
     pub(crate) keeps: usize,
     /// The first finished clips with a warning and how many they are, by its code.
     pub(crate) warned: BTreeMap<String, (Vec<String>, usize)>,
+    /// Names of folders that are of no clip.
+    pub(crate) left: Vec<String>,
 }
 
 /// Most failures listed in full.

@@ -8,6 +8,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use clap::{Args, ValueEnum};
 
 use crate::batch::journal::{Header, Journal, check_parts, is_journal};
+use crate::batch::left;
 use crate::batch::list::{self, Clips, Item};
 use crate::batch::pack::{self, ARCHIVE, Pack, Parcel};
 use crate::batch::place::Places;
@@ -376,6 +377,8 @@ impl<'a> Batch<'a> {
             let packs = [pack];
             pack::all(packs[0].path(), &packs, &journals, names())?;
             packs.into_iter().for_each(Pack::clear);
+        } else if args.shard.is_none() {
+            count.left = left::folders(&args.out, names());
         }
         end(&count, of, args, words)
     }
@@ -422,7 +425,8 @@ fn join(args: &BatchArgs, words: &Words) -> Result<(), Failure> {
 
 /// Reports the outcome.
 fn end(count: &Count, of: usize, args: &BatchArgs, words: &Words) -> Result<(), Failure> {
-    let Count { done, resumed, failed, failures, lacking, lacks, kept, keeps, warned } = count;
+    let Count { done, resumed, failed, failures, lacking, lacks, kept, keeps, warned, left } =
+        count;
     let out = args.out.display();
     let tables =
         if args.shard.is_none() { "summary.csv keys.csv times.csv" } else { "next --join" };
@@ -433,6 +437,15 @@ fn end(count: &Count, of: usize, args: &BatchArgs, words: &Words) -> Result<(), 
     if *resumed > 0 {
         let clips = counted(*resumed, "clip");
         words.say(format_args!("note        {clips} done already, not processed again"));
+    }
+    if !left.is_empty() {
+        let folders = counted(left.len(), "folder");
+        let more = if left.len() > NAMED { " …" } else { "" };
+        let left: Vec<&str> = left.iter().take(NAMED).map(String::as_str).collect();
+        let left = left.join(" ");
+        words.say(format_args!(
+            "note        {folders} in {out}/clips of no clip of this batch, which stay: {left}{more}"
+        ));
     }
     let listed = |count: usize, clips: &[String]| {
         let more = if count > NAMED { "; …, all in summary.csv" } else { "" };
