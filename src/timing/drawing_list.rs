@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use crate::error::Error;
 use crate::sheet::{Drawing, Exposure, Layer, Reason};
+use crate::timing::report::Shortfall;
 use crate::timing::{Course, On, Stills};
 
 /// Number of times that naka-nashi may lengthen a drawing (KKMFT §3.2, Algorithm 1).
@@ -22,6 +23,8 @@ pub(super) struct Link {
     pub(super) step: f64,
     /// Whether the drawing is never left out.
     pub(super) kept: bool,
+    /// Whether the drawing is an inbetween.
+    is_inbetween: bool,
     /// Whether the body hardly moves there, before any omission. A turn in the midst of a swing is not a pose to hold.
     is_slow: bool,
     /// Whether the drawing begins on a koma that is [kept](Course::kept), and keeps its length.
@@ -90,6 +93,7 @@ impl<'a> Strip<'a> {
                 koma: exposure.koma,
                 step: if index == 0 { 0.0 } else { stills.ssd(before, index) },
                 kept,
+                is_inbetween: !drawing.role.is_kept(),
                 paced,
                 is_slow: false,
                 interval,
@@ -142,6 +146,16 @@ impl<'a> Strip<'a> {
     pub(super) fn inbetweens(&self, has: impl Fn(usize) -> bool) -> usize {
         let left = |(at, link): &(usize, &Link)| link.koma > 0 && !link.kept && has(*at);
         self.links.iter().enumerate().filter(left).count()
+    }
+
+    /// Explains why nothing of some drawings can go: no inbetween is left, or only such as always stay.
+    pub(super) fn none_left(&self, has: impl Fn(usize) -> bool) -> Shortfall {
+        let stays =
+            |(at, link): (usize, &Link)| link.koma > 0 && link.kept && link.is_inbetween && has(at);
+        match self.links.iter().enumerate().any(stays) {
+            true => Shortfall::AllStay,
+            false => Shortfall::NoneLeft,
+        }
     }
 
     /// Removes an inbetween from the list and returns its koma; its neighbours are measured anew.

@@ -55,8 +55,8 @@ pub(super) fn run(
 
 /// Explains why no more were replaced; `refused` says whether a hold would have grown too long.
 fn why_not_more(strip: &Strip<'_>, has: impl Fn(usize) -> bool, refused: bool) -> Shortfall {
-    match strip.inbetweens(has) > 0 {
-        false => Shortfall::NoneLeft,
+    match strip.inbetweens(&has) > 0 {
+        false => strip.none_left(has),
         true if refused => Shortfall::NoRoom,
         true => Shortfall::AllHolds,
     }

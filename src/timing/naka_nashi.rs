@@ -115,9 +115,9 @@ impl<'a, 'b> Stage<'a, 'b> {
                     continue;
                 }
             };
-            // Of several actions, the first gives the reason.
+            // Of several actions, the first with inbetweens gives the reason.
             if quota.is_count {
-                self.taken.shortfall.get_or_insert(shortfall);
+                self.taken.shortfall = Some(shortfall.after(self.taken.shortfall));
             }
             break;
         }
@@ -209,7 +209,8 @@ impl<'a, 'b> Stage<'a, 'b> {
     }
 
     fn nothing_left(&self, drawings: &[Range<usize>]) -> Shortfall {
-        if self.any_barred(drawings) { Shortfall::NoRoom } else { Shortfall::NoneLeft }
+        let has = |drawing: usize| drawings.iter().any(|range| range.contains(&drawing));
+        if self.any_barred(drawings) { Shortfall::NoRoom } else { self.strip.none_left(has) }
     }
 
     fn none_fast(&self, drawings: &[Range<usize>]) -> Shortfall {

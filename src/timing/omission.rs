@@ -385,7 +385,7 @@ fn hold(
         stage.done += replaced.gone.len();
         stage.gone.extend(named(layer, &replaced.gone));
         let shortfall = unmet(part.settings.koma_dori, replaced.shortfall);
-        stage.shortfall = stage.shortfall.or(shortfall);
+        stage.shortfall = shortfall.map(|why| why.after(stage.shortfall)).or(stage.shortfall);
     }
     report.koma_dori = stage;
 }

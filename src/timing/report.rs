@@ -43,10 +43,18 @@ pub struct Gone {
 impl OmissionReport {
     /// Returns a sentence for each stage that did less than requested.
     pub fn shortfalls(&self) -> impl Iterator<Item = String> {
-        let stages = [("naka-nashi", &self.naka_nashi), ("koma-dori", &self.koma_dori)];
-        stages.into_iter().filter_map(|(name, stage)| {
+        let stages = [
+            (
+                "naka-nashi",
+                &self.naka_nashi,
+                " (omission.keep_length=false shortens the sheet instead)",
+            ),
+            ("koma-dori", &self.koma_dori, " (omission.max_hold)"),
+        ];
+        stages.into_iter().filter_map(|(name, stage, room)| {
             let why = stage.shortfall?;
-            Some(format!("{name} did {} of {}: {why}", stage.done, stage.asked))
+            let room = if why == Shortfall::NoRoom { room } else { "" };
+            Some(format!("{name} did {} of {}: {why}{room}", stage.done, stage.asked))
         })
     }
 }
@@ -57,6 +65,8 @@ impl OmissionReport {
 pub enum Shortfall {
     /// No inbetween is left that could go.
     NoneLeft,
+    /// The inbetweens that are left always stay: those of gaits, of koma that show the source, and at the ends.
+    AllStay,
     /// Every remaining inbetween is a hold already.
     AllHolds,
     /// The drawings that could go do not differ from the ones before them.
@@ -69,10 +79,19 @@ pub enum Shortfall {
     NoneSmall,
 }
 
+impl Shortfall {
+    /// Returns the reason for two parts of a layer, of which the other comes first: that one, unless it has no inbetween
+    /// left, which then does not hold for both.
+    pub(super) fn after(self, first: Option<Self>) -> Self {
+        first.filter(|first| *first != Self::NoneLeft).unwrap_or(self)
+    }
+}
+
 impl fmt::Display for Shortfall {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::NoneLeft => "no inbetween is left",
+            Self::AllStay => "the inbetweens that are left always stay: in a gait, where the source shows, at the ends",
             Self::AllHolds => "every inbetween that is left is a hold already",
             Self::NoMotion => "nothing moves in what is left",
             Self::NoRoom => "the drawings around cannot be held any longer",
