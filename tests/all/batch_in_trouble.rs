@@ -120,6 +120,8 @@ fn a_device_is_no_folder_of_results() {
     for command in ["run data/kick.bvh", "batch data/kick.bvh", "split data/kick.bvh"] {
         let said = place.refused(2, &format!("{command} --out /dev/null"));
         assert!(said.contains("writes a folder of files, not to /dev/null"), "{said}");
+        let said = place.genga(&format!("{command} --out /dev/null/deep"));
+        assert_eq!(text(&said.stderr), "genga: /dev/null: is a file; name a folder\n", "{command}");
     }
 }
 

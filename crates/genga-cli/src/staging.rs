@@ -216,9 +216,9 @@ fn there(folder: &Path) -> &Path {
     if nearest.as_os_str().is_empty() { Path::new(".") } else { nearest }
 }
 
-/// Fails if a file is in the way of a folder.
+/// Fails if a file or a device is in the way of a folder.
 pub(super) fn check_folder(folder: &Path) -> Result<(), Error> {
-    let file = folder.ancestors().find(|above| above.is_file());
+    let file = folder.ancestors().find(|above| above.exists() && !above.is_dir());
     let failed = |file| io_error(file, io::Error::other("is a file; name a folder"));
     file.map_or(Ok(()), |file| Err(failed(file)))
 }
