@@ -305,3 +305,22 @@ fn a_folder_that_cannot_be_written_is_named_as_it_was_given() {
     }
     permit(&place, "ro", 0o755);
 }
+
+#[test]
+fn a_motion_is_no_list() {
+    let place = Place::new();
+    fs::write(place.path("kick.bvh"), kick()).unwrap();
+    let output = place.fed("batch - --out out", &kick());
+    let said = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{said}");
+    let says = "stdin: begins as a motion (BVH) and is no list of files; genga run - takes it";
+    assert!(said.contains(says), "{said}");
+    let said = place.refused(2, "batch @kick.bvh --out out");
+    assert!(said.contains("no list of files; genga run kick.bvh takes it"), "{said}");
+    assert!(!place.path("out").exists());
+    // A list may begin with a file of that name, and with JSON that is no glTF.
+    fs::write(place.path("hierarchy"), kick()).unwrap();
+    assert_eq!(place.fed("batch - --out out", b"hierarchy\nkick.bvh\n").status.code(), Some(0));
+    let said = text(&place.fed("batch - --out out", b"{\"clip\": \"kick.bvh\"}\n").stderr);
+    assert!(!said.contains("begins as a motion"), "{said}");
+}

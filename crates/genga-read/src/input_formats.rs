@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use crate::reading::{Given, Options, Read};
-use crate::{acclaim, fbx, foreign, gltf, mmd};
+use crate::{HEAD, acclaim, fbx, foreign, gltf, mmd};
 use genga::error::{Error, Place};
 
 /// A motion file format (形式).
@@ -118,6 +118,16 @@ impl Format {
     pub fn ends(&self, path: &Path) -> bool {
         let ending = path.extension().unwrap_or_default();
         self.endings.iter().any(|own| ending.eq_ignore_ascii_case(own))
+    }
+
+    /// Determines the format of a motion from its first bytes; `None` if they are of none that is read. JSON is of glTF
+    /// if it has an `asset`.
+    pub fn of_motion(bytes: &[u8]) -> Option<&'static Self> {
+        let head = &bytes[..bytes.len().min(HEAD)];
+        let is_motion = |format: &&Self| !format.endings.is_empty() && (format.begins)(head);
+        let is_other_json = head.trim_ascii_start().starts_with(b"{")
+            && memchr::memmem::find(bytes, b"\"asset\"").is_none();
+        FORMATS.iter().find(is_motion).filter(|_| !is_other_json)
     }
 
     /// Names all formats in the error of a file that does not even begin like the one it was taken for.

@@ -12,11 +12,13 @@ use super::super::failure::Failure;
 use super::super::files;
 use super::super::paths::is_motion;
 use super::super::plan::PlanArgs;
+use super::super::shell::quoted;
 use super::own_results::{is_in_batch, is_result, is_results};
 use genga::error::did_you_mean;
 use genga::recipe::{Knob, unknown_beside};
 use genga::sanitize::is_hidden;
 use genga_files::delimiter;
+use genga_read::Format;
 
 /// A clip of a batch.
 #[derive(Debug, Clone, PartialEq)]
@@ -76,6 +78,9 @@ pub(crate) fn clips(words: &[String], out: &Path) -> Result<Clips, Failure> {
     Ok(Clips { items: called(named), skipped })
 }
 
+/// Name of the list on stdin in messages.
+const STDIN: &str = "stdin";
+
 /// Part of the message if all that was found are results.
 const BUT_RESULTS: &str = ", only results of genga";
 
@@ -90,8 +95,8 @@ fn of_word(word: &str, walk: &mut Walk) -> Result<Vec<Named>, Failure> {
     if word == "-" {
         let mut bytes = Vec::new();
         let read = io::stdin().lock().read_to_end(&mut bytes);
-        read.map_err(|error| Failure::io(Path::new("stdin"), error))?;
-        return lined(&bytes, Path::new("stdin"));
+        read.map_err(|error| Failure::io(Path::new(STDIN), error))?;
+        return lined(&bytes, Path::new(STDIN));
     }
     if let Some(list) = word.strip_prefix('@') {
         return of_list(Path::new(list));
@@ -117,7 +122,24 @@ fn lined(bytes: &[u8], list: &Path) -> Result<Vec<Named>, Failure> {
     let lines = lines.map(|line| line.strip_suffix(b"\r").unwrap_or(line));
     let lines = lines.filter(|line| !line.trim_ascii().is_empty() && !line.starts_with(b"#"));
     let path = |line| path_of(line).ok_or_else(|| not_utf8(list));
+    if let Some(format) = Format::of_motion(bytes) {
+        let first = lines.clone().next().map(path).transpose()?;
+        if first.is_none_or(|first| !first.exists()) {
+            return Err(no_list(list, format));
+        }
+    }
     lines.map(|line| Ok((path(line)?, Own::default()))).collect()
+}
+
+/// The failure of a motion in the place of a list.
+fn no_list(list: &Path, format: &Format) -> Failure {
+    let run = if list == Path::new(STDIN) { Path::new("-") } else { list };
+    Failure::AskedWrongly(format!(
+        "{}: begins as a motion ({}) and is no list of files; genga run {} takes it",
+        list.display(),
+        format.name,
+        quoted(&run.display().to_string())
+    ))
 }
 
 #[cfg(unix)]
