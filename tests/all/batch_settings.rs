@@ -147,6 +147,16 @@ fn a_table_may_have_semicolons_and_its_switches_yes_and_no() {
 }
 
 #[test]
+fn an_option_of_the_whole_batch_is_no_column_and_it_is_said() {
+    let place = Place::new();
+    for option in ["deliver", "jobs", "shard"] {
+        let (exit, said) = of_table(&place, "t.csv", &format!("clip,{option}\ndata/kick.bvh,1\n"));
+        let says = format!("{option}: is an option of the whole batch, not of a clip: --{option}");
+        assert!(exit == 2 && said.contains(&says), "{said}");
+    }
+}
+
+#[test]
 fn a_column_that_is_no_option_is_found_before_any_work() {
     let place = Place::new();
     for (name, table, wanted) in [

@@ -5,9 +5,10 @@ use std::fs;
 use std::io::{self, Read};
 use std::path::{Component, Path, PathBuf};
 
-use clap::{Arg, Args, Command};
+use clap::{Arg, Args, Command, CommandFactory};
 use walkdir::WalkDir;
 
+use super::super::commands;
 use super::super::failure::Failure;
 use super::super::files;
 use super::super::paths::is_motion;
@@ -280,6 +281,11 @@ impl Options {
         if name == CLIP || self.find(name).is_some() {
             return Ok(());
         }
+        if is_of_batch(name) {
+            return Err(format!(
+                "{name}: is an option of the whole batch, not of a clip: --{name}"
+            ));
+        }
         let hint = match Knob::find(name) {
             Ok(_) => format!("; did you mean {SET}{name}?"),
             Err(_) => {
@@ -322,6 +328,13 @@ impl Options {
             None => Err(format!("{name}: expected yes or no, found \"{cell}\"")),
         }
     }
+}
+
+/// Whether `genga batch` has an option of this name.
+fn is_of_batch(name: &str) -> bool {
+    let program = commands::Args::command();
+    let batch = program.find_subcommand("batch");
+    batch.is_some_and(|batch| batch.get_arguments().any(|option| option.get_long() == Some(name)))
 }
 
 /// Refuses a setting that does not exist. Names of layers and joints are for the clip to know.
