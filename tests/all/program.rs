@@ -334,6 +334,21 @@ fn inspect_names_what_is_in_a_clip() {
 }
 
 #[test]
+fn one_joint_is_not_called_joints() {
+    let place = Place::new();
+    let frame = |at: usize| format!("{at} {} 0\n", at * at % 7);
+    let rows: String = (0..48).map(frame).collect();
+    let clip = format!(
+        "HIERARCHY\nROOT ball\n{{\nOFFSET 0 0 0\nCHANNELS 3 Xposition Yposition Zposition\n\
+         End Site\n{{\nOFFSET 0 9 0\n}}\n}}\nMOTION\nFrames: 48\nFrame Time: 0.041667\n{rows}"
+    );
+    fs::write(place.path("ball.bvh"), clip).unwrap();
+    assert!(place.said("run ball.bvh").contains("48 frames at 24 fps, 1 joint, 2.00 s"));
+    let page = place.done("inspect ball.bvh");
+    assert!(!page.contains("1 joints"), "{page}");
+}
+
+#[test]
 fn inspect_draws_the_skeleton_and_never_over_the_clip() {
     let place = Place::new();
     let page = place.done("inspect data/kick.bvh --plot skeleton.svg");

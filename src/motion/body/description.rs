@@ -224,5 +224,6 @@ fn not_body(build: &Build) -> Option<String> {
     let all: usize = kinds.iter().map(|(role, _)| count(*role)).sum();
     let told = kinds.iter().filter(|(role, _)| count(*role) > 0);
     let told: Vec<String> = told.map(|(role, what)| format!("{} {what}", count(*role))).collect();
-    (all > 0).then(|| format!("{all} joints: {}", told.join(", ")))
+    let joints = if all == 1 { "joint" } else { "joints" };
+    (all > 0).then(|| format!("{all} {joints}: {}", told.join(", ")))
 }

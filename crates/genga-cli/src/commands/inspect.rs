@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use crate::clip::{ClipArgs, Source};
-use crate::console::Words;
+use crate::console::{Words, counted};
 use crate::failure::Failure;
 use crate::{files, paths};
 use genga::error::Warning;
@@ -72,7 +72,7 @@ fn page(name: &str, source: &Source) -> String {
     line("frames", format!("{}, numbers {} to {}", clip.len(), clip.first(), clip.last()));
     line("rate", rate(clip.rate(), source.written_frame_time));
     line("length", format!("{:.2} s, {koma} koma at 24 a second", clip.seconds()));
-    line("joints", format!("{}, {} channels", skeleton.len(), skeleton.channels()));
+    line("joints", format!("{}, {}", skeleton.len(), counted(skeleton.channels(), "channel")));
     line("size", size(source));
     if !clip.is_empty() {
         Description::new(clip).lines.into_iter().for_each(|(part, words)| line(part, words));

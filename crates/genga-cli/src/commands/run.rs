@@ -223,8 +223,8 @@ fn is_edit_of(text: &str, written: &str) -> bool {
 
 fn summary(words: &Words, cut: &str, report: &Report) {
     let Report { frames, joints, frame_rate, seconds, koma, .. } = report;
-    let line =
-        format!("{cut}: {frames} frames at {frame_rate} fps, {joints} joints, {seconds:.2} s");
+    let joints = counted(*joints, "joint");
+    let line = format!("{cut}: {frames} frames at {frame_rate} fps, {joints}, {seconds:.2} s");
     if report.losses.is_empty() {
         words.say(line);
     } else {
