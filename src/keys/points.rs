@@ -155,7 +155,12 @@ mod tests {
     }
 
     fn points_of(skeleton: &Skeleton, own: &[f64]) -> Points {
-        Points::of_members(skeleton, &Members::all(skeleton), vec![], own)
+        Points::of_members(
+            skeleton,
+            &Members::all_of_one(skeleton, &vec![true; skeleton.len()]),
+            vec![],
+            own,
+        )
     }
 
     #[test]

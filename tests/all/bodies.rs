@@ -310,6 +310,27 @@ fn of_two_people_the_keys_are_those_of_one_and_it_is_said() {
 }
 
 #[test]
+fn of_two_people_one_is_seen_where_only_an_arm_moves() {
+    let clip = clips::sample("kick.bvh");
+    let skeleton = clip.skeleton();
+    let joints = skeleton.joints.iter().enumerate();
+    let joints = joints.map(|(at, joint)| Joint { name: format!("q{at}"), ..joint.clone() });
+    let arm = &skeleton.joints[skeleton.find("LeftForeArm").unwrap().0];
+    let moving = arm.first_channel..arm.first_channel + arm.channels.len();
+    let first: Vec<f64> = clip.rows().next().unwrap().to_vec();
+    let rows = clip.rows().flat_map(|row| {
+        let mut held = first.clone();
+        held[moving.clone()].copy_from_slice(&row[moving.clone()]);
+        held
+    });
+    let (nameless, rows) = (Skeleton { joints: joints.collect() }, rows.collect());
+    let still = Clip::new(nameless, clip.rate(), clip.first(), clip.len(), rows).unwrap();
+    let body = Description::new(&two_people(&still, true));
+    assert!(body.notes.iter().any(|note| note.code == "W_PEOPLE"), "{body:?}");
+    assert!(body.lines.iter().any(|(part, _)| *part == "left arm"), "{body:?}");
+}
+
+#[test]
 fn limbs_are_those_that_names_give_whatever_else_hangs_there() {
     let clip = clips::sample("kick.bvh");
     let lines = |clip: &Clip| Description::new(clip).lines;

@@ -574,7 +574,7 @@ fn notes(report: &VmdReport, found: &Found) -> Vec<Warning> {
         notes.push(Warning::new("W_VMD_LEFT_OUT", message));
     }
     if !found.missing.is_empty() {
-        let message = format!("vmd: the clip has no joint {}", found.missing.join(", "));
+        let message = format!("vmd: the body has no joint {}", found.missing.join(", "));
         notes.push(Warning::new("W_VMD_NO_JOINT", message));
     }
     notes

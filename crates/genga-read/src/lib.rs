@@ -161,7 +161,7 @@ impl Options {
     fn declare(&self, read: Read) -> Read {
         let of_file = read.clip.declared();
         let up = self.up.map(|up| (up, Word::Person)).or(of_file.up);
-        let bones = self.bones.as_ref().map(|bones| bones.limbs_said(read.clip.skeleton()));
+        let bones = self.bones.as_ref().map(|bones| bones.limbs_said(&read.clip));
         let declared = Declared { up, metres: of_file.metres, ..bones.unwrap_or(of_file) };
         Read { clip: read.clip.with_declared(declared), ..read }
     }

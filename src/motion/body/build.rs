@@ -25,20 +25,18 @@ pub struct Build {
 }
 
 impl Build {
-    /// Describes the performer of a clip. If the moving joints alone have no limbs, all joints are tried: perhaps
-    /// only a part of the body moves.
+    /// Describes the performer of a clip. If the moving joints alone have no limbs, all joints but those of other
+    /// people are tried: perhaps only a part of the body moves.
     pub fn new(clip: &Clip) -> Self {
         let bones = members::bones(clip);
         let moving = members::moving(clip, &bones);
-        let limbs = {
-            let tree = members::main_tree(&bones, &moving[0]);
-            NamedLimbs::new(&bones, &tree, clip.declared())
-        };
+        let tree = members::main_tree(&bones, &moving[0]);
+        let limbs = NamedLimbs::new(&bones, &tree, clip.declared());
         let build = Self::with(clip, Members::find(&bones, moving, &limbs), limbs);
         if build.mannequin.is_some() || build.members.are_all() {
             return build;
         }
-        let whole = Self::with(clip, Members::all(&bones), build.limbs.clone());
+        let whole = Self::with(clip, Members::all_of_one(&bones, &tree), build.limbs.clone());
         if whole.mannequin.is_some() { whole } else { build }
     }
 

@@ -94,7 +94,7 @@ fn people(clip: &Clip, build: &Build) -> Option<Warning> {
     let own = clip.skeleton().joints.get(top(clip, build.members.root()))?;
     let roots: Vec<String> = others.iter().map(|root| format!("--root {root}")).collect();
     let message = format!(
-        "{} people are in the file, and the keys are those of {}; {} takes another alone",
+        "{} people are in the file, and the keys, and the body of a VMD or VRMA, are those of {}; {} takes another alone",
         others.len() + 1,
         own.name,
         roots.join(" or ")

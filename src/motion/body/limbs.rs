@@ -10,7 +10,7 @@ use super::structure::LIMBS;
 use super::structure::fit::way;
 use crate::motion::body::names::bones::Side;
 use crate::motion::landmarks::above;
-use crate::motion::{Declared, JointId, Skeleton};
+use crate::motion::{Clip, Declared, JointId, Skeleton};
 
 use name_words::ByWords;
 
@@ -126,8 +126,8 @@ impl NamedLimbs {
 
 /// Reads head and limbs from a person's bone table. A limb counts if the person has a row for it and its joints hang
 /// on one another.
-pub(crate) fn said(map: &BoneMap, skeleton: &Skeleton) -> Declared {
-    let found = map.find(skeleton);
+pub(crate) fn said(map: &BoneMap, clip: &Clip) -> Declared {
+    let (skeleton, found) = (clip.skeleton(), map.find(clip));
     let named = |bone: &str| found.joints[map.model.find(bone)?].first().copied();
     let limb = |(bones, side): ([&str; 3], Side)| {
         let bones = bones.map(|bone| side.named(bone));

@@ -48,10 +48,12 @@ impl Members {
         Self { skeleton: alone(skeleton, &roles, longest), roles, longest }
     }
 
-    /// Takes every joint as part of the body.
-    pub(crate) fn all(skeleton: &Skeleton) -> Self {
-        let roles = vec![Role::Body; skeleton.len()];
-        Self { roles, skeleton: skeleton.clone(), longest: f64::INFINITY }
+    /// Takes every joint as part of the body, except those of other people.
+    pub(crate) fn all_of_one(skeleton: &Skeleton, is_main: &[bool]) -> Self {
+        let mut roles = vec![Role::Body; skeleton.len()];
+        leave_out_others(skeleton, is_main, &mut roles);
+        let longest = f64::INFINITY;
+        Self { skeleton: alone(skeleton, &roles, longest), roles, longest }
     }
 
     /// Whether every joint is part of the body.
@@ -214,18 +216,31 @@ pub(super) fn main_tree(skeleton: &Skeleton, moves: &[bool]) -> Vec<bool> {
 /// Least number of joints of a person, and the least share of the main tree's bones that another person has.
 const PERSON: (usize, f64) = (8, 1.0 / 3.0);
 
-/// Marks trees as large as a person, besides the main one, as other people.
+/// Marks the joints of other people than the one whose keys are found.
+pub(super) fn joints_of_others(clip: &Clip) -> Vec<bool> {
+    let skeleton = bones(clip);
+    if skeleton.joints.iter().filter(|joint| joint.parent.is_none()).count() < 2 {
+        return vec![false; skeleton.len()];
+    }
+    let [moves, _] = moving(clip, &skeleton);
+    of_others(&skeleton, &main_tree(&skeleton, &moves))
+}
+
 fn leave_out_others(skeleton: &Skeleton, is_main: &[bool], roles: &mut [Role]) {
+    let others =
+        roles.iter_mut().zip(of_others(skeleton, is_main)).filter(|(_, is_other)| *is_other);
+    others.for_each(|(role, _)| *role = Role::Other);
+}
+
+/// Marks the joints of other people: those of trees as large as a person, besides the main one.
+fn of_others(skeleton: &Skeleton, is_main: &[bool]) -> Vec<bool> {
     let roots = skeleton.roots();
     let bones = bones_by_tree(skeleton, &roots);
     let mut joints = vec![0; roots.len()];
     roots.iter().for_each(|root| joints[*root] += 1);
     let main = is_main.iter().position(|is_main| *is_main).map_or(0.0, |main| bones[roots[main]]);
-    for (joint, root) in roots.into_iter().enumerate().filter(|(joint, _)| !is_main[*joint]) {
-        if joints[root] >= PERSON.0 && bones[root] >= PERSON.1 * main {
-            roles[joint] = Role::Other;
-        }
-    }
+    let is_person = |root: usize| joints[root] >= PERSON.0 && bones[root] >= PERSON.1 * main;
+    roots.iter().zip(is_main).map(|(root, is_main)| !is_main && is_person(*root)).collect()
 }
 
 /// Marks the joint at which the body begins in each moving tree.

@@ -8,6 +8,7 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use crate::error::{Error, in_words};
+use crate::motion::body::members::joints_of_others;
 use crate::motion::body::side::{DASHES, own_name};
 use crate::motion::body::{limbs, structure};
 use crate::motion::{Clip, Declared, JointId, Skeleton, plain_name};
@@ -51,7 +52,7 @@ pub struct Found {
     pub joints: Vec<Vec<JointId>>,
     /// Bones whose joints come from the body's shape, because names gave none or wrong ones.
     pub by_shape: Vec<String>,
-    /// Names in a person's own rows that no joint has.
+    /// Names in a person's own rows that no joint of the body has.
     pub missing: Vec<String>,
 }
 
@@ -80,9 +81,9 @@ impl BoneMap {
         Ok(map)
     }
 
-    /// Returns head and limbs of a skeleton as a person's rows and dialects give them.
-    pub fn limbs_said(&self, skeleton: &Skeleton) -> Declared {
-        limbs::said(self, skeleton)
+    /// Returns head and limbs of a clip's body as a person's rows and dialects give them.
+    pub fn limbs_said(&self, clip: &Clip) -> Declared {
+        limbs::said(self, clip)
     }
 
     /// Names of the dialects, in order of precedence.
@@ -138,7 +139,7 @@ impl BoneMap {
     ///
     /// [`Error::Clip`] if no joint is known; the message names the joints and the remedy.
     pub fn locate(&self, clip: &Clip) -> Result<Found, Error> {
-        let mut found = self.find(clip.skeleton());
+        let mut found = self.find(clip);
         let is_unknown = found.joints.iter().all(Vec::is_empty);
         found.by_shape = structure::settle(&self.model, &mut found.joints, clip, |bone| {
             self.own.contains_key(bone)
@@ -159,12 +160,14 @@ impl BoneMap {
         is_own || bones.iter().any(|bone| self.own.contains_key(*bone))
     }
 
-    /// Matches a skeleton with the dialect that names most of its bones and, of equal ones, most joints.
-    pub(super) fn find(&self, skeleton: &Skeleton) -> Found {
-        self.find_among(skeleton, |_| true)
+    /// Matches a clip without the joints of other people than the one whose keys are found.
+    pub(super) fn find(&self, clip: &Clip) -> Found {
+        let is_of_others = joints_of_others(clip);
+        self.find_among(clip.skeleton(), |joint| !is_of_others[joint])
     }
 
-    /// Matches only some joints of a skeleton, such as those of one tree.
+    /// Matches some joints of a skeleton, such as those of one tree, with the dialect that names most of its bones and,
+    /// of equal ones, most joints.
     pub(crate) fn find_among(
         &self,
         skeleton: &Skeleton,

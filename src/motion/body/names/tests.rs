@@ -16,7 +16,7 @@ fn skeleton(names: &[&str]) -> Skeleton {
 /// Returns the driven bones with their joints.
 fn driven(map: &BoneMap, names: &[&str]) -> Vec<(String, Vec<String>)> {
     let skeleton = skeleton(names);
-    let found = map.find(&skeleton);
+    let found = map.find_among(&skeleton, |_| true);
     let name = |joint: &JointId| skeleton.joints[joint.0].name.clone();
     let bones = map.model.bones.iter().zip(&found.joints);
     let bones = bones.filter(|(_, joints)| !joints.is_empty());
@@ -75,7 +75,7 @@ joints = \"LeftToeBase\"
     assert_eq!(of("左腕"), ["MyArm"]);
     assert_eq!(of("頭"), ["Nod", "Shake"]);
     assert_eq!(of("左足先EX"), ["LeftToeBase"]);
-    assert_eq!(map.find(&skeleton(&names)).missing, ["Absent"]);
+    assert_eq!(map.find_among(&skeleton(&names), |_| true).missing, ["Absent"]);
     let text = "\
 [[dialect]]
 name = \"mine\"
@@ -85,7 +85,7 @@ sides = [\"li\", \"re\"]
 \"左ひじ\" = \"@Elle\"
 ";
     let map = BoneMap::parse(text).unwrap();
-    let found = map.find(&skeleton(&["liArm", "liElle", "reArm", "reElle"]));
+    let found = map.find_among(&skeleton(&["liArm", "liElle", "reArm", "reElle"]), |_| true);
     assert_eq!(found.dialect, "mine");
     assert_eq!(found.joints.iter().flatten().count(), 4);
     assert_eq!(map.dialects().next(), Some("mine"));

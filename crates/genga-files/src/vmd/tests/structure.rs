@@ -222,6 +222,46 @@ fn names_that_do_not_fit_the_body_give_way_to_its_shape() {
     );
 }
 
+/// The clip with a second body in the same file, whose joints have other names.
+fn with_another(clip: &Clip, name: impl Fn(&str) -> String) -> Clip {
+    let own = clip.skeleton();
+    let other = own.joints.iter().map(|joint| Joint {
+        name: name(&joint.name),
+        parent: joint.parent.map(|parent| JointId(parent.0 + own.len())),
+        first_channel: joint.first_channel + own.channels(),
+        ..joint.clone()
+    });
+    let joints = own.joints.iter().cloned().chain(other).collect();
+    let values = clip.rows().flat_map(|row| [row, row].concat()).collect();
+    let skeleton = genga::motion::Skeleton { joints };
+    Clip::new(skeleton, clip.rate(), clip.first(), clip.len(), values).unwrap()
+}
+
+#[test]
+fn a_second_person_of_a_file_drives_no_bone_whatever_its_joints_are_called() {
+    let clip = body();
+    let of_limbs = |name: &str| {
+        let is_limb = ["Left", "Right"].iter().any(|side| name.starts_with(side));
+        if is_limb { format!("B_{name}") } else { format!("{name}.2") }
+    };
+    let names: [&dyn Fn(&str) -> String; 4] =
+        [&|name| format!("{name}.2"), &of_limbs, &|name| format!("B_{name}"), &|name| {
+            name.replace("Left", "L_")
+        }];
+    for name in names {
+        let two = with_another(&clip, name);
+        assert_eq!(driven(&two), driven(&clip), "{}", name("LeftArm"));
+        let sheet = Sheet::on_ones(clip.clock(24.0), 3);
+        let report = Vmd::default().make(&two, &sheet).unwrap().report;
+        let others = two.skeleton().joints[clip.skeleton().len()..].iter();
+        assert!(others.clone().all(|joint| report.left_out.contains(&joint.name)), "{report:?}");
+    }
+    // A person's file of bones names joints of the same person.
+    let own = BoneMap::parse("[bones]\n\"上半身\" = [\"Spine\", \"Spine2\"]\n").unwrap();
+    let found = own.locate(&with_another(&clip, |name| format!("{name}.2"))).unwrap();
+    assert_eq!(found.missing, ["Spine2"]);
+}
+
 #[test]
 fn the_ankle_of_smpl_is_no_foot_and_its_first_spine_no_chest() {
     let (clip, smpl) = called(&[
