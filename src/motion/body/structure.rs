@@ -81,14 +81,21 @@ pub(super) fn is_of_limb(bone: &str) -> bool {
     LIMBS.iter().any(|(_, bones)| bones.contains(&stem))
 }
 
-/// Returns the limbs whose first bone is not driven, in words: left arm.
+/// The second bones of the limbs, in words.
+const LOWER: [&str; 2] = ["forearm", "shin"];
+
+/// Returns the limbs whose first bone is not driven, and the second bones of the others that are not, in words: left
+/// arm, right shin.
 pub fn still_limbs(drives: impl Fn(&str) -> bool) -> Vec<String> {
-    let limbs = LIMBS
-        .iter()
-        .flat_map(|(limb, bones)| Side::BOTH.map(|side| (side, *limb, bones)).into_iter());
-    // A limb moves if its first bone turns, even if no other does; if only its end turns, it does not move.
-    let still = limbs.filter(|(side, _, bones)| !drives(&side.named(bones[0])));
-    still.map(|(side, limb, _)| format!("{} {limb}", side.english())).collect()
+    let limbs = LIMBS.iter().zip(LOWER);
+    let limbs = limbs.flat_map(|(limb, lower)| Side::BOTH.map(|side| (side, limb, lower)));
+    // If only its end turns, a limb does not move. A hand or a foot alone is no such loss.
+    let still = limbs.filter_map(|(side, (limb, [first, second, _]), lower)| {
+        let part = [(first, *limb), (second, lower)];
+        let (_, part) = part.into_iter().find(|(bone, _)| !drives(&side.named(bone)))?;
+        Some(format!("{} {part}", side.english()))
+    });
+    still.collect()
 }
 
 /// Returns the bones whose joints the shape decides: unnamed bones, and all bones of a limb that is named

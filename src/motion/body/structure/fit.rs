@@ -3,12 +3,17 @@
 use crate::motion::{JointId, Skeleton};
 
 /// Whether named joints can be a limb: they hang on one another and end where the limb found by shape ends. A large
-/// hand can mislead the shape to another end; then the joints win whose two bones are more similar in length.
+/// hand can mislead the shape to another end; then the joints win whose two bones are more similar in length. An upper
+/// bone alone is a limb if the shape finds nothing below it.
 pub(super) fn fits(
     skeleton: &Skeleton,
     names: [Option<JointId>; 3],
     shape: [Option<JointId>; 3],
 ) -> bool {
+    if let [Some(upper), None, None] = names {
+        let end = shape.into_iter().flatten().next_back();
+        return end.is_some_and(|end| end == upper || carries(skeleton, end, upper));
+    }
     let [Some(upper), Some(middle), lower] = names else { return false };
     // The names belong to another limb.
     if shape[2].is_some_and(|end| !carries(skeleton, upper, end)) {

@@ -222,6 +222,57 @@ fn names_that_do_not_fit_the_body_give_way_to_its_shape() {
     );
 }
 
+/// The clip without the joints that hang on some of its joints, nor these: End Sites stand in their places.
+fn cut(clip: &Clip, at: &[&str]) -> Clip {
+    let own = clip.skeleton();
+    let (mut skeleton, mut columns) = (genga::motion::Skeleton::default(), Vec::new());
+    let mut kept: Vec<Option<JointId>> = Vec::new();
+    for (_, joint) in own.iter() {
+        let parent = joint.parent.map(|parent| kept[parent.0]);
+        if at.contains(&&joint.name[..])
+            && let Some(Some(parent)) = parent
+        {
+            let end = genga::motion::EndSite { name: "Site".into(), offset: joint.offset };
+            skeleton.joints[parent.0].end_sites.push(end);
+        }
+        let is_kept = parent != Some(None) && !at.contains(&&joint.name[..]);
+        kept.push(is_kept.then(|| JointId(skeleton.len())));
+        if is_kept {
+            let first_channel = columns.len();
+            columns.extend(joint.first_channel..joint.first_channel + joint.channels.len());
+            skeleton.joints.push(Joint {
+                parent: parent.flatten(),
+                first_channel,
+                ..joint.clone()
+            });
+        }
+    }
+    let values = clip.rows().flat_map(|row| columns.iter().map(|column| row[*column])).collect();
+    Clip::new(skeleton, clip.rate(), clip.first(), clip.len(), values).unwrap()
+}
+
+#[test]
+fn of_a_limb_that_is_cut_short_names_give_what_is_left() {
+    let clip = body();
+    for (at, limb) in [
+        ("LeftForeArm", &["左肩", "左腕", "左ひじ", "左手首"][..]),
+        ("LeftHand", &["左肩", "左腕", "左ひじ", "左手首"]),
+        ("RightFoot", &["右足", "右ひざ", "右足首"]),
+    ] {
+        let short = cut(&clip, &[at]);
+        for ((bone, own), (_, left)) in driven(&clip).into_iter().zip(driven(&short)) {
+            let name = |clip: &Clip, joint: &JointId| clip.skeleton().joints[joint.0].name.clone();
+            let mut own: Vec<String> = own.iter().map(|joint| name(&clip, joint)).collect();
+            own.retain(|joint| short.skeleton().find(joint).is_some());
+            let left: Vec<String> = left.iter().map(|joint| name(&short, joint)).collect();
+            assert!(own == left || !limb.contains(&&bone[..]), "{at}: {bone} {own:?} {left:?}");
+        }
+    }
+    let sheet = Sheet::on_ones(clip.clock(24.0), 3);
+    let notes = Vmd::default().make(&cut(&clip, &["LeftForeArm"]), &sheet).unwrap().notes;
+    assert!(notes.iter().any(|note| note.message.contains("left forearm will not")), "{notes:?}");
+}
+
 /// The clip with a second body in the same file, whose joints have other names.
 fn with_another(clip: &Clip, name: impl Fn(&str) -> String) -> Clip {
     let own = clip.skeleton();
@@ -354,8 +405,10 @@ fn mocopi_has_arms_and_legs() {
 
 #[test]
 fn a_limb_whose_upper_bone_is_not_known_is_told_as_a_loss() {
-    let still = still_limbs(|bone| bone.starts_with("左足"));
+    let still = still_limbs(|bone| ["左足", "左ひざ"].contains(&bone));
     assert_eq!(still, ["left arm", "right arm", "right leg"]);
-    let still = still_limbs(|bone| ["腕", "足首"].iter().any(|end| bone.ends_with(end)));
+    let still = still_limbs(|bone| ["腕", "ひじ", "足首"].iter().any(|end| bone.ends_with(end)));
     assert_eq!(still, ["left leg", "right leg"], "a foot alone is no leg");
+    let still = still_limbs(|bone| !["左ひじ", "右ひざ", "左足首"].contains(&bone));
+    assert_eq!(still, ["left forearm", "right shin"]);
 }
