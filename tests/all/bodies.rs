@@ -5,9 +5,10 @@ use std::f64::consts::FRAC_PI_2;
 
 use genga::edits::Edits;
 use genga::keys::Key;
+use genga::motion::body::landmarks::paths;
 use genga::motion::{
-    Axis, BoneMap, Channel, Clip, Description, Joint, JointId, Landmarks, Skeleton, Stature,
-    local_rotation, local_translation, set_local_rotation,
+    Axis, BoneMap, Channel, Clip, Description, EndSite, Joint, JointId, Landmarks, Skeleton,
+    Stature, local_rotation, local_translation, set_local_rotation,
 };
 use genga::pipeline::Engine;
 use genga::recipe::Recipe;
@@ -328,6 +329,63 @@ fn of_two_people_one_is_seen_where_only_an_arm_moves() {
     let body = Description::new(&two_people(&still, true));
     assert!(body.notes.iter().any(|note| note.code == "W_PEOPLE"), "{body:?}");
     assert!(body.lines.iter().any(|(part, _)| *part == "left arm"), "{body:?}");
+}
+
+/// The clip without some joints and all that hangs on them: End Sites stand in their places.
+fn cut(clip: &Clip, at: &[&str]) -> Clip {
+    let (mut skeleton, mut columns) = (Skeleton::default(), Vec::new());
+    let mut kept: Vec<Option<JointId>> = Vec::new();
+    for (_, joint) in clip.skeleton().iter() {
+        let parent = joint.parent.map(|parent| kept[parent.0]);
+        let is_cut = at.contains(&&joint.name[..]);
+        if let (true, Some(Some(parent))) = (is_cut, parent) {
+            let end = EndSite { name: "Site".into(), offset: joint.offset };
+            skeleton.joints[parent.0].end_sites.push(end);
+        }
+        let is_kept = !is_cut && parent != Some(None);
+        kept.push(is_kept.then(|| JointId(skeleton.len())));
+        if is_kept {
+            let first_channel = columns.len();
+            columns.extend(joint.first_channel..joint.first_channel + joint.channels.len());
+            let parent = parent.flatten();
+            skeleton.joints.push(Joint { parent, first_channel, ..joint.clone() });
+        }
+    }
+    let rows = clip.rows().flat_map(|row| columns.iter().map(|column| row[*column])).collect();
+    Clip::new(skeleton, clip.rate(), clip.first(), clip.len(), rows).unwrap()
+}
+
+#[test]
+fn limbs_without_hands_and_feet_end_in_the_tips_of_their_last_bones() {
+    let clip = clips::sample("kick.bvh");
+    let told = |clip: &Clip, part: &str| {
+        let lines = Description::new(clip).lines;
+        lines.into_iter().find(|(own, _)| *own == part).map(|(_, told)| told)
+    };
+    let feet = ["LeftFoot", "RightFoot"];
+    for at in [&feet[..], &["LeftFoot", "RightFoot", "LeftHand", "RightHand"]] {
+        let short = cut(&clip, at);
+        assert_eq!(told(&short, "height"), told(&clip, "height"));
+        let leg = "LeftUpLeg LeftLeg and its End Site, by names";
+        assert_eq!(told(&short, "left leg").as_deref(), Some(leg));
+        let ankles = |clip: &Clip| {
+            let landmarks = Landmarks::new(clip);
+            let ankles: Vec<_> = landmarks.feet.iter().map(|foot| foot.ankle).collect();
+            paths(clip, clip.clock(24.0), &ankles)
+        };
+        let apart = ankles(&clip).concat().into_iter().zip(ankles(&short).concat());
+        assert!(apart.map(|(a, b)| a.distance(b)).all(|way| way < 1e-9), "{at:?}");
+        assert_eq!(Description::new(&short).notes, []);
+    }
+}
+
+#[test]
+fn of_a_body_with_a_limb_missing_that_limb_is_told() {
+    let clip = cut(&clips::sample("kick.bvh"), &["LeftUpLeg"]);
+    let body = Description::new(&clip);
+    let (_, limbs) = body.lines.iter().find(|(part, _)| *part == "limbs").unwrap();
+    assert!(limbs.starts_with("not all: no whole left leg;"), "{limbs}");
+    assert!(body.notes[0].message.contains("of the body no whole left leg is known"), "{body:?}");
 }
 
 #[test]

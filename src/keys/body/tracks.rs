@@ -172,7 +172,7 @@ fn of_person(motion: &LayerMotion<'_>, mannequin: &Mannequin) -> Vec<Travelling>
     let both = |a: &Point, b: &Point| f64::min(counts(a), counts(b));
     let ends = motion.build.landmarks.points().into_iter();
     let ends = ends.map(|end| Travelling { what: Place::Of(end), weight: counts(&end) });
-    let [left, right] = mannequin.legs().map(|[hip, _, ankle]| [hip, ankle].map(Point::new));
+    let [left, right] = mannequin.leg_ends();
     let hips = both(&left[0], &right[0]);
     // In the world, feet and pelvis mostly travel. The step is their movement relative to each other.
     let pelvis = Travelling { what: Place::Between(left[0], right[0]), weight: hips };

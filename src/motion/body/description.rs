@@ -2,6 +2,7 @@
 
 use std::ops::RangeInclusive;
 
+use super::limbs::NamedLimbs;
 use super::members::is_still;
 use super::role::Role;
 use super::upright::By;
@@ -65,9 +66,9 @@ impl Description {
         match MannequinParts::of_build(clip, build) {
             Some(figure) => lines.extend(limbs(clip, build, &figure, &mut guesses)),
             None => {
-                let none = "none: no head, two arms and two legs are found; the ends of its chains stand for them";
-                guesses.push("it has no limbs that are known".to_owned());
-                lines.push(("limbs", none.into()));
+                let (limbs, guess) = no_limbs(&build.limbs);
+                guesses.push(guess);
+                lines.push(("limbs", limbs));
             }
         }
         lines.extend(not_body(build).map(|joints| ("not body", joints)));
@@ -170,6 +171,21 @@ fn odd_height(clip: &Clip, build: &Build) -> Option<String> {
     }
 }
 
+/// Says of a body without head, two arms and two legs which of them are missing, in a line and as a guess.
+fn no_limbs(limbs: &NamedLimbs) -> (String, String) {
+    let stand = "the ends of its chains stand for them";
+    if limbs.joints().next().is_none() {
+        let none = format!("none: no head, two arms and two legs are found; {stand}");
+        return (none, "it has no limbs that are known".to_owned());
+    }
+    let named = LIMBS.as_flattened().iter().zip(limbs.arms.iter().chain(&limbs.legs));
+    let missing = named.filter(|(_, limb)| limb.is_none()).map(|(word, _)| *word);
+    let missing: Vec<&str> =
+        limbs.head.is_none().then_some("head").into_iter().chain(missing).collect();
+    let missing = missing.join(", ");
+    (format!("not all: no whole {missing}; {stand}"), format!("no whole {missing} is known"))
+}
+
 fn limbs(
     clip: &Clip,
     build: &Build,
@@ -184,11 +200,14 @@ fn limbs(
     by_shape.extend((!is_named).then_some("head"));
     let mut lines = vec![("head", told(skeleton, &[head], (is_named, said.head.is_some())))];
     for (words, limbs) in LIMBS.iter().zip([figure.arms, figure.legs]) {
-        for (word, limb) in words.iter().zip(limbs) {
-            let is_named = build.limbs.ending_at(limb[2]).is_some();
+        for (word, [upper, middle, lower, _]) in words.iter().zip(limbs) {
+            let has_end = lower < skeleton.len();
+            let joints = if has_end { &[upper, middle, lower][..] } else { &[upper, middle] };
+            let end = joints[joints.len() - 1];
+            let is_named = build.limbs.ending_at(end).is_some();
             by_shape.extend((!is_named).then_some(*word));
-            let is_said = said.limbs.iter().flatten().any(|own| own[2].0 == limb[2]);
-            lines.push((*word, told(skeleton, &limb[..3], (is_named, is_said))));
+            let is_said = said.limbs.iter().flatten().any(|own| own[2].0 == end);
+            lines.push((*word, told(skeleton, joints, (is_named, is_said))));
         }
     }
     if !by_shape.is_empty() {
@@ -206,7 +225,8 @@ fn told(skeleton: &Skeleton, joints: &[usize], (is_named, is_said): (bool, bool)
         (true, 1) => "by name",
         (true, _) => "by names",
     };
-    format!("{}, {by}", names.join(" "))
+    let end = if joints.len() == 2 { " and its End Site" } else { "" };
+    format!("{}{end}, {by}", names.join(" "))
 }
 
 /// Counts the joints outside the body by role.

@@ -104,8 +104,8 @@ impl Landmarks {
         ends.sort_by(|a, b| level(*a).total_cmp(&level(*b)));
         ankles.extend(ends.drain(..(2 - ankles.len()).min(ends.len())));
         ankles.sort_unstable();
-        landmarks.feet =
-            ankles.into_iter().map(|ankle| looks.foot(skeleton, ankle, up.unit())).collect();
+        let foot = |ankle| looks.foot(skeleton, limbs.end(skeleton, ankle), up.unit());
+        landmarks.feet = ankles.into_iter().map(foot).collect();
         let lengths = lengths(skeleton);
         let mut longest = ends.clone();
         longest.sort_by(|a, b| lengths[*b].total_cmp(&lengths[*a]));
@@ -119,7 +119,7 @@ impl Landmarks {
         landmarks.head = named.or(highest).map(Point::new);
         wrists.extend(longest);
         wrists.sort_unstable();
-        landmarks.wrists = wrists.into_iter().map(Point::new).collect();
+        landmarks.wrists = wrists.into_iter().map(|wrist| limbs.end(skeleton, wrist)).collect();
         landmarks
     }
 
@@ -204,12 +204,11 @@ impl Looks {
     }
 
     /// Returns the foot below an ankle.
-    fn foot(&self, skeleton: &Skeleton, ankle: usize, up: DVec3) -> Foot {
-        let joints = below(skeleton, ankle).map(|joint| (Point::new(joint), self.means[joint]));
-        let inside: BTreeSet<usize> = below(skeleton, ankle).collect();
+    fn foot(&self, skeleton: &Skeleton, ankle: Point, up: DVec3) -> Foot {
+        let inside: BTreeSet<usize> = below(skeleton, ankle.joint.0).collect();
+        let joints = inside.iter().map(|joint| (Point::new(*joint), self.means[*joint]));
         let tips = self.tips.iter().copied().filter(|(tip, _)| inside.contains(&tip.joint.0));
         let lowest = joints.chain(tips).min_by(|a, b| a.1.dot(up).total_cmp(&b.1.dot(up)));
-        let ankle = Point::new(ankle);
         Foot { ankle, sole: lowest.map_or(ankle, |(sole, _)| sole) }
     }
 }

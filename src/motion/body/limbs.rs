@@ -4,13 +4,15 @@ mod name_words;
 
 use std::sync::LazyLock;
 
+use glam::DVec3;
+
 use super::names::BoneMap;
 use super::side::BodySide;
 use super::structure::LIMBS;
 use super::structure::fit::way;
 use crate::motion::body::names::bones::Side;
 use crate::motion::landmarks::above;
-use crate::motion::{Clip, Declared, JointId, Skeleton};
+use crate::motion::{Clip, Declared, JointId, Point, Skeleton};
 
 use name_words::ByWords;
 
@@ -27,7 +29,8 @@ const ALIKE: f64 = 1.4;
 /// Length of thigh and shin together, in heights of the body.
 pub(super) const LEG: f64 = 0.48;
 
-/// An arm or a leg: shoulder, elbow and wrist, or hip, knee and ankle.
+/// An arm or a leg: shoulder, elbow and wrist, or hip, knee and ankle. A limb whose last bone ends in an End Site
+/// lists the joint of this bone twice.
 pub(crate) type Limb = [usize; 3];
 
 /// Limbs and head of a body known by name.
@@ -98,10 +101,27 @@ impl NamedLimbs {
         limbs.find(|limb| limb[2] == end)
     }
 
+    /// Returns the point at the end of the limb that ends at a joint: the joint itself, or its End Site.
+    pub(super) fn end(&self, skeleton: &Skeleton, joint: usize) -> Point {
+        let is_short = self.ending_at(joint).is_some_and(|[_, middle, lower]| middle == lower);
+        let tip = is_short.then(|| tip(skeleton, JointId(joint))).flatten();
+        Point { offset: tip.unwrap_or_default(), ..Point::new(joint) }
+    }
+
+    /// Returns the length of the longest End Site in which a limb ends.
+    pub(super) fn longest_tip(&self, skeleton: &Skeleton) -> f64 {
+        let ends = self.arms.iter().chain(&self.legs).flatten().map(|[_, _, lower]| lower);
+        let tips = ends.map(|end| self.end(skeleton, *end).offset.length());
+        tips.fold(0.0, f64::max)
+    }
+
     /// Returns the height of a person with these legs, if head and all limbs are known.
     pub(super) fn height(&self, skeleton: &Skeleton) -> Option<f64> {
         let [Some(left), Some(right)] = self.legs else { return None };
-        let length = |[hip, _, ankle]: Limb| way(skeleton, JointId(hip), JointId(ankle));
+        let length = |[hip, _, ankle]: Limb| {
+            let end = self.end(skeleton, ankle);
+            Some(way(skeleton, JointId(hip), end.joint)? + end.offset.length())
+        };
         let mean = f64::midpoint(length(left)?, length(right)?);
         self.are_whole().then_some(mean / LEG)
     }
@@ -145,13 +165,24 @@ pub(crate) fn said(map: &BoneMap, clip: &Clip) -> Declared {
     }
 }
 
-/// Returns a limb and its length if its joints can be one.
+/// Returns a limb and its length if its joints can be one. Without a hand or foot it ends in the tip of its last bone.
 fn whole(skeleton: &Skeleton, limb: [Option<JointId>; 3]) -> Option<(Limb, f64)> {
     let [upper, middle, lower] = limb;
-    let (upper, middle, lower) = (upper?, middle?, lower?);
-    let [first, second] = [way(skeleton, upper, middle)?, way(skeleton, middle, lower)?];
+    let (upper, middle) = (upper?, middle?);
+    let first = way(skeleton, upper, middle)?;
+    let second = match lower {
+        Some(lower) => way(skeleton, middle, lower)?,
+        None => tip(skeleton, middle)?.length(),
+    };
+    let lower = lower.unwrap_or(middle);
     let is_even = first.min(second) >= EVEN * first.max(second) && first > 0.0;
     is_even.then_some(([upper.0, middle.0, lower.0], first + second))
+}
+
+/// Returns the offset of the End Site of a joint that carries no other joint.
+fn tip(skeleton: &Skeleton, joint: JointId) -> Option<DVec3> {
+    let carries = skeleton.joints.iter().any(|other| other.parent == Some(joint));
+    skeleton.joints[joint.0].end_sites.first().filter(|_| !carries).map(|end| end.offset)
 }
 
 /// Returns both sides if their lengths are similar, or neither.

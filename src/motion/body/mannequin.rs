@@ -8,7 +8,7 @@ use glam::DVec3;
 
 use crate::motion::body::limbs::{LEG, NamedLimbs};
 use crate::motion::landmarks::{above, below, lengths};
-use crate::motion::{BodySide, EndSite, JointId, Landmarks, Point, Skeleton};
+use crate::motion::{BodySide, EndSite, Landmarks, Point, Skeleton};
 
 /// Number of points of a mannequin besides its pelvis: neck, head, and for each side shoulder, elbow, wrist,
 /// fingertips, hip, knee, ankle and toes.
@@ -82,18 +82,18 @@ impl Mannequin {
         let head = landmarks.head?;
         let lengths = lengths(skeleton);
         let pair = |ends| Pair::find(skeleton, named, &lengths, ends);
-        let arms = pair([left_hand.joint, right_hand.joint]);
-        let legs = pair([left_foot.ankle.joint, right_foot.ankle.joint]);
-        let hands = arms.ends.map(|wrist| tips(skeleton, wrist));
+        let arms = pair([left_hand, right_hand]);
+        let legs = pair([left_foot.ankle, right_foot.ankle]);
+        let hands = arms.ends.map(|wrist| tips(skeleton, wrist.joint.0));
         let soles = [left_foot.sole, right_foot.sole].map(|sole| vec![sole]);
         // Measures the bones and not the motion: a crouching body has legs as long as ever. A game rig's root on the
         // floor is no bone.
-        let trunk = pair([head.joint, JointId(legs.fork)]);
+        let trunk = pair([head, Point::new(legs.fork)]);
         let to_hips = lengths[trunk.fork];
         let height = (lengths[head.joint.0] + legs.mean_length() - 2.0 * to_hips) / TRUNK_AND_LEG;
         let arms_found = arms.limbs(ARM * height, hands)?;
         let legs_found = legs.limbs(LEG * height, soles)?;
-        let leg = |leg: &Limb| lengths[leg.lower.joint.0] - lengths[leg.upper.joint.0];
+        let leg = |leg: &Limb| legs.length(leg.lower) - legs.length(leg.upper);
         let leg_length = f64::midpoint(leg(&legs_found[0]), leg(&legs_found[1]));
         // A doll with a large head and short legs is at least as tall as its length from ankles to head.
         let upright = TRUNK_AND_LEG * height;
@@ -160,6 +160,11 @@ impl Mannequin {
         [a, b, c, d]
     }
 
+    /// Returns hip and ankle of each leg, in the order of the feet.
+    pub(crate) fn leg_ends(&self) -> [[Point; 2]; 2] {
+        self.legs.each_ref().map(|leg| [leg.upper, leg.lower])
+    }
+
     /// Computes the mannequin in the pose of the rig; `place` gives the world position of a point of the rig.
     pub(crate) fn stand(&self, place: impl Fn(Point) -> DVec3) -> Stand {
         let middle = |limbs: &[Limb; 2]| {
@@ -216,7 +221,7 @@ struct Pair<'a> {
     named: &'a NamedLimbs,
     /// Distance of each joint from its root along the bones.
     lengths: &'a [f64],
-    ends: [usize; 2],
+    ends: [Point; 2],
     fork: usize,
 }
 
@@ -225,17 +230,22 @@ impl<'a> Pair<'a> {
         skeleton: &'a Skeleton,
         named: &'a NamedLimbs,
         lengths: &'a [f64],
-        ends: [JointId; 2],
+        ends: [Point; 2],
     ) -> Self {
-        let ends = ends.map(|end| end.0);
-        let up: Vec<usize> = above(skeleton, ends[0]).collect();
-        let fork = above(skeleton, ends[1]).find(|joint| up.contains(joint)).unwrap_or(0);
+        let [first, second] = ends.map(|end| above(skeleton, end.joint.0));
+        let up: Vec<usize> = first.collect();
+        let fork = second.into_iter().find(|joint| up.contains(joint)).unwrap_or(0);
         Self { skeleton, named, lengths, ends, fork }
     }
 
     /// Returns the mean length of both from the root to their ends.
     fn mean_length(&self) -> f64 {
-        f64::midpoint(self.lengths[self.ends[0]], self.lengths[self.ends[1]])
+        f64::midpoint(self.length(self.ends[0]), self.length(self.ends[1]))
+    }
+
+    /// Returns the length along the bones from the root to a point.
+    fn length(&self, point: Point) -> f64 {
+        self.lengths[point.joint.0] + point.offset.length()
     }
 
     /// Finds the joints of both limbs; `length` is the usual length from shoulder to wrist or from hip to ankle.
@@ -246,9 +256,10 @@ impl<'a> Pair<'a> {
 
     /// Uses the named joints if there are any. Otherwise shoulder and elbow are the turning joints with the most
     /// usual distances to the wrist; this skips collar bones, twist joints and elbows made of two bones.
-    fn limb(&self, end: usize, length: f64, tips: Vec<Point>) -> Option<Limb> {
+    fn limb(&self, lower: Point, length: f64, tips: Vec<Point>) -> Option<Limb> {
+        let end = lower.joint.0;
         if let Some(limb) = self.named.ending_at(end) {
-            let [upper, middle, lower] = limb.map(Point::new);
+            let [upper, middle, _] = limb.map(Point::new);
             return Some(Limb { upper, middle, lower, tips });
         }
         let inner: Vec<usize> = above(self.skeleton, end)
@@ -267,7 +278,7 @@ impl<'a> Pair<'a> {
         let below: Vec<usize> =
             inner.into_iter().filter(|joint| to_end(*joint) < to_end(upper)).collect();
         let middle = nearest(&below, to_end(upper) / 2.0).unwrap_or(end);
-        let [upper, middle, lower] = [upper, middle, end].map(Point::new);
+        let [upper, middle] = [upper, middle].map(Point::new);
         Some(Limb { upper, middle, lower, tips })
     }
 }

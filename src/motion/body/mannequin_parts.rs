@@ -7,7 +7,7 @@ use glam::{DQuat, DVec3};
 
 use crate::motion::body::landmarks::{above, below};
 use crate::motion::body::mannequin::{Limb, Mannequin, tips};
-use crate::motion::{Body, BodySide, Build, Clip, Joint, JointId, Point, Poser, Skeleton};
+use crate::motion::{Body, BodySide, Build, Clip, EndSite, Joint, JointId, Point, Poser, Skeleton};
 use crate::time::Frame;
 
 /// Number of frames sampled to find the direction of the face.
@@ -51,7 +51,7 @@ pub(crate) type LimbPoints = [usize; 4];
 pub struct MannequinParts {
     /// Points that follow joints and tips in a pose: toes, fingertips, middle of the head, nose and crown.
     pub marks: Vec<Point>,
-    /// Shoulder, elbow, wrist and fingertips, left and right.
+    /// Shoulder, elbow, wrist and fingertips, left and right. A wrist or ankle may be a tip.
     pub arms: [LimbPoints; 2],
     /// Hip, knee, ankle and toes, left and right.
     pub legs: [LimbPoints; 2],
@@ -96,7 +96,8 @@ impl MannequinParts {
         let ends = clip.skeleton().joints.iter().map(|joint| joint.end_sites.len()).sum::<usize>();
         let first = clip.skeleton().len() + ends;
         let limb = |limb: &Limb, mark: usize| {
-            let [upper, middle, lower] = [limb.upper, limb.middle, limb.lower].map(|at| at.joint.0);
+            let points = [limb.upper, limb.middle, limb.lower];
+            let [upper, middle, lower] = points.map(|point| index(clip.skeleton(), point));
             [upper, middle, lower, first + mark]
         };
         Some(Self {
@@ -113,6 +114,15 @@ impl MannequinParts {
             marks,
         })
     }
+}
+
+/// Returns the index of a joint or of a tip among the points of a pose.
+fn index(skeleton: &Skeleton, point: Point) -> usize {
+    let JointId(joint) = point.joint;
+    let ends = |joints: &[Joint]| joints.iter().map(|joint| joint.end_sites.len()).sum::<usize>();
+    let is_tip = |end: &EndSite| end.offset == point.offset && end.offset != DVec3::ZERO;
+    let tip = skeleton.joints[joint].end_sites.iter().position(is_tip);
+    tip.map_or(joint, |tip| skeleton.len() + ends(&skeleton.joints[..joint]) + tip)
 }
 
 /// Returns the left limb before the right one.
@@ -176,7 +186,7 @@ impl<'a> Rig<'a> {
     /// Returns the end of a foot, its point furthest from the ankle. A claw is cut to the longest human foot; a
     /// missing foot gets the usual length.
     fn toes(&self, leg: &Limb) -> Point {
-        let ankle = self.rest[leg.lower.joint.0];
+        let ankle = self.at_rest(leg.lower);
         let way = |point: &Point| self.at_rest(*point) - ankle;
         let ends = tips(self.skeleton, leg.lower.joint.0).into_iter().chain(leg.tips.clone());
         let furthest = ends.max_by(|a, b| way(a).length().total_cmp(&way(b).length()));
@@ -184,14 +194,14 @@ impl<'a> Rig<'a> {
         match furthest.filter(|_| long > 0.03 * self.height) {
             Some(end) if long <= LONGEST_FOOT * self.height => end,
             Some(end) => {
-                let offset = LONGEST_FOOT * self.height * way(&end).normalize();
-                Point { offset, ..leg.lower }
+                let foot = LONGEST_FOOT * self.height * way(&end).normalize();
+                Point { offset: leg.lower.offset + foot, ..leg.lower }
             }
             None => {
-                let shin = self.rest[leg.lower.joint.0] - self.rest[leg.middle.joint.0];
+                let shin = ankle - self.at_rest(leg.middle);
                 let across = self.across_at_rest();
                 let forward = across.cross(shin).normalize_or_zero();
-                Point { offset: FOOT * self.height * forward, ..leg.lower }
+                Point { offset: leg.lower.offset + FOOT * self.height * forward, ..leg.lower }
             }
         }
     }
@@ -204,9 +214,9 @@ impl<'a> Rig<'a> {
         let ends = self.skeleton.joints[wrist].end_sites.iter().map(|end| end.offset);
         let ways = children.map(|joint| joint.offset).chain(ends);
         let way: DVec3 = ways.filter(|way| way.length() > 0.01 * self.height).sum();
-        let forearm = self.rest[wrist] - self.rest[arm.middle.joint.0];
+        let forearm = self.at_rest(arm.lower) - self.at_rest(arm.middle);
         let way = way.try_normalize().unwrap_or_else(|| forearm.normalize_or_zero());
-        Point { offset: HAND * self.height * way, ..arm.lower }
+        Point { offset: arm.lower.offset + HAND * self.height * way, ..arm.lower }
     }
 
     /// Returns the middle of the head, its nose and its crown.

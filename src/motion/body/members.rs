@@ -44,7 +44,7 @@ impl Members {
         let mut roles = below(skeleton, &begins);
         leave_out_others(skeleton, &main_tree(skeleton, &moves), &mut roles);
         Rig { skeleton, limbs, moves: &moves, travels: &travels }.strip(&mut roles);
-        let longest = longest_tip(skeleton, &roles);
+        let longest = longest_tip(skeleton, &roles).max(limbs.longest_tip(skeleton));
         Self { skeleton: alone(skeleton, &roles, longest), roles, longest }
     }
 

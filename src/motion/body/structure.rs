@@ -161,10 +161,16 @@ fn rows(skeleton: &Skeleton, figure: &MannequinParts) -> Vec<Row> {
     for (at, side) in Side::BOTH.into_iter().enumerate() {
         rows.push((side.named(COLLAR), between(chest, figure.arms[at][0])));
         for ((_, bones), limb) in LIMBS.iter().zip([figure.arms[at], figure.legs[at]]) {
-            let mut joints = limb[..3].to_vec();
+            // A limb without a hand or foot ends in a tip.
+            let is_joint = |point: &usize| *point < skeleton.len();
+            let mut joints: Vec<usize> = limb[..3].iter().copied().filter(is_joint).collect();
+            let has_end = joints.len() == 3;
             // A limb without a middle joint lists its end twice.
             joints.dedup();
-            let bones = if joints.len() == 3 { &bones[..] } else { &[bones[0], bones[2]] };
+            let bones = match has_end && joints.len() < 3 {
+                true => &[bones[0], bones[2]],
+                false => &bones[..],
+            };
             let named = bones.iter().zip(joints);
             rows.extend(named.map(|(bone, joint)| (side.named(bone), vec![JointId(joint)])));
         }
