@@ -173,15 +173,15 @@ fn a_shortfall_says_whether_a_longer_hold_would_help() {
 #[test]
 fn inbetweens_that_always_stay_are_not_said_to_be_gone() {
     let (layer, stills) = on_ones(&(0..20).collect::<Vec<_>>());
-    let report = |kept: Vec<Range<usize>>, later: Vec<usize>, settings: Omission| {
-        let course = Course { kept, later, ..Course::default() };
+    let report = |kept: Range<usize>, later: Vec<usize>, settings: Omission| {
+        let course = Course { kept: vec![kept], later, ..Course::default() };
         settings.apply_to(&layer, &stills, &course).unwrap().report
     };
-    let all = report(vec![0..20], vec![], counts(5, 5));
+    let all = report(0..20, vec![], counts(5, 5));
     assert_eq!(all.naka_nashi.shortfall, Some(Shortfall::AllStay));
     assert_eq!(all.koma_dori.shortfall, Some(Shortfall::AllStay));
     // An action whose inbetweens are all gone is no reason if another has some.
-    let ends = report(vec![1..20], vec![1], counts(5, 0));
+    let ends = report(1..20, vec![1], counts(5, 0));
     assert_eq!(ends.naka_nashi.shortfall, Some(Shortfall::AllStay));
     let (layer, stills) = movement();
     let full = counts(4, 0).apply(&layer, &stills, 2).unwrap().report;
