@@ -245,6 +245,7 @@ fn a_fault_in_a_recipe_names_its_file() {
             "mine.toml: edits: there is no layer B",
         ),
         ("[keys.weights]\nHipps = 0\n", "", "mine.toml: keys.weights.Hipps: "),
+        ("[keys.weights]\n\"*\" = 0\n", "", "mine.toml: keys.weights: every joint has 0"),
         ("rate = 24\n", "--set keys.weights.Hipps=0", "genga: keys.weights.Hipps: "),
     ] {
         fs::write(place.path("mine.toml"), recipe).unwrap();

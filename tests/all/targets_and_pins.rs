@@ -611,7 +611,10 @@ fn wrong_joint_weights_are_refused_with_the_nearest_name() {
             "--recipe r.toml",
             "keys.weights.LeftHnad: the clip has no such joint; did you mean LeftHand?",
         ),
-        ("--recipe r.toml --keys 5", "genga: keys.weights.LeftHnad: the clip has no such joint"),
+        (
+            "--recipe r.toml --keys 5",
+            "genga: r.toml: keys.weights.LeftHnad: the clip has no such joint",
+        ),
         (
             "--recipe w.toml",
             "w.toml:2:12: keys.weights.LeftHand: expected a number, 0 (no say) or more",

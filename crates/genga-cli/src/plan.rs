@@ -149,7 +149,7 @@ impl<'a> Plan<'a> {
         move |error| {
             let is_there = match &error {
                 Error::Edits { .. } => is_corrected_there || wrong == Some(error.to_string()),
-                Error::Setting { name, .. } => set.contains(name),
+                Error::Setting { name, .. } => set.iter().any(|own| is_within(own, name)),
                 _ => false,
             };
             match recipe.as_deref().filter(|_| is_there) {
@@ -321,6 +321,11 @@ fn furthest_off(met: &Met) -> Option<f64> {
     let mut met_ones = met.outcomes.iter().filter(|outcome| outcome.shortfall.is_none());
     let of_error = met_ones.find(|outcome| matches!(outcome.target, Target::MaxError(_)));
     of_error.map(|outcome| outcome.reached)
+}
+
+/// Whether a setting is of a name or of a table of that name.
+fn is_within(setting: &str, name: &str) -> bool {
+    setting.strip_prefix(name).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
 }
 
 /// Makes the sheet.
