@@ -39,6 +39,11 @@ pub(super) fn asked(
     Ok((Some(seen_from), notes))
 }
 
+/// Whether a camera is asked for.
+pub(super) fn is_asked(args: &SeenArgs) -> bool {
+    args.seen_from.is_some()
+}
+
 /// The file that a camera is read from.
 pub(super) fn file(args: &SeenArgs) -> Option<&Path> {
     args.seen_from.as_deref().and_then(file_and_name).map(|(file, _)| Path::new(file))

@@ -1,5 +1,5 @@
-//! Corrections that stay from run to run (前の修正): those in the recipe of the results folder, unless `--fresh` or a
-//! recipe with others. Settings do not stay: a run without any is the default one.
+//! What stays from run to run (前の修正): the corrections in the recipe of the results folder, unless `--fresh` or a recipe
+//! with others, and its settings, unless `--fresh` or another recipe.
 
 use std::path::Path;
 
@@ -13,8 +13,8 @@ use genga::pipeline::Engine;
 use genga::recipe::Recipe;
 use genga_files::Run;
 
-/// Lays a run's corrections over those of the previous run in the same folder. Returns notes on kept and dropped
-/// corrections, and on settings that the previous run had.
+/// Lays a run's settings and corrections over those of the previous run in the same folder. Returns notes on what was kept
+/// and dropped.
 pub(super) fn keep(
     plan: &mut Plan<'_>,
     folder: &Path,
@@ -28,6 +28,7 @@ pub(super) fn keep(
                 "{failure}; its corrections cannot be kept: --fresh goes without"
             ))
         })?;
+    let stay = plan.on(&settings)?;
     let (listed, from) = (list(&before), path.display());
     let usable = usable(before, &plan.recipe, engine)?;
     let has_place = list(&usable);
@@ -41,19 +42,18 @@ pub(super) fn keep(
     }
     plan.edits = plan.over(usable);
     let now = list(&plan.edits);
-    let (stay, gone): (Vec<_>, Vec<_>) = listed.into_iter().partition(|one| now.contains(one));
+    let (kept, gone): (Vec<_>, Vec<_>) = listed.into_iter().partition(|one| now.contains(one));
     let said = [
-        (stay, format!("kept from {from} (--fresh goes without)")),
+        (kept, format!("kept from {from} (--fresh goes without)")),
         (gone, format!("of {from}, replaced")),
     ];
     let said = said.into_iter().filter(|(which, _)| !which.is_empty());
     let mut said: Vec<_> =
         said.map(|(which, what)| format!("{what}: {}", shortened_list(which))).collect();
-    let lost = lost_settings(&settings, &plan.recipe);
-    if !lost.is_empty() {
-        // All of them: the recipe that has them is written over by this run.
-        let way_out = "settings do not stay; those of the run before come back with";
-        said.push(format!("{way_out} {}", lost.join(" ")));
+    if !stay.is_empty() {
+        let option = |(name, word)| format!("--set {}", quoted(&format!("{name}={word}")));
+        let options: Vec<_> = stay.into_iter().map(option).collect();
+        said.push(format!("settings as in {from} (--fresh goes without): {}", options.join(" ")));
     }
     Ok(said)
 }
@@ -71,18 +71,6 @@ pub(super) fn left_out(folder: &Path, edits: &Edits) -> Option<String> {
             shortened_list(gone)
         )
     })
-}
-
-/// Lists the settings of the previous run that this one has back at their defaults, as options for a shell.
-fn lost_settings(before: &Recipe, now: &Recipe) -> Vec<String> {
-    let [usual, before, now] = [&Recipe::default(), before, now].map(Recipe::settings);
-    let is_lost = |own: &&(String, String)| !usual.contains(own) && !now.contains(own);
-    let is_reset = |own: &&(String, String)| {
-        let there = now.iter().find(|(name, _)| *name == own.0);
-        there.is_none_or(|there| usual.contains(there))
-    };
-    let lost = before.iter().filter(is_lost).filter(is_reset);
-    lost.map(|(name, word)| format!("--set {}", quoted(&format!("{name}={word}")))).collect()
 }
 
 /// Leaves out what this part of the clip, or these layers, do not have.

@@ -181,6 +181,24 @@ impl<'a> Plan<'a> {
         Ok((engine, source.of))
     }
 
+    /// Lays the settings of the command line over those of an earlier run, unless a recipe is named. Returns those that
+    /// stay and are not the default ones.
+    pub(super) fn on(&mut self, earlier: &Recipe) -> Result<Vec<(String, String)>, Failure> {
+        let corrections = &self.args.corrections;
+        if corrections.settings.recipe.is_some() {
+            return Ok(vec![]);
+        }
+        let seen_from = self.recipe.seen_from;
+        (self.recipe, self.edits) =
+            corrections.put_over(corrections.settings.read(earlier.clone())?)?;
+        if camera_args::is_asked(&corrections.seen) {
+            self.recipe.seen_from = seen_from;
+        }
+        let [usual, now] = [&Recipe::default(), &self.recipe].map(Recipe::settings);
+        let stays = |own: &(String, String)| !usual.contains(own) && now.contains(own);
+        Ok(earlier.settings().into_iter().filter(stays).collect())
+    }
+
     /// Returns the corrections over those of an earlier run. A number of keys that is asked for now overrules switches
     /// that leave none to find.
     pub(super) fn over(&self, earlier: Edits) -> Edits {

@@ -26,9 +26,10 @@ pub(super) struct RunArgs {
     /// Output folder [default: the clip's name with -genga].
     #[arg(long, short, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Drop the corrections and numbers of the previous run.
+    /// Drop corrections, settings and formats of the run before.
     ///
-    /// Those in the recipe of the same folder stay otherwise, unless a --recipe has others.
+    /// Those of the same folder stay otherwise, and so do the numbers of drawings. A --recipe has settings of its own, and
+    /// corrections if it has any.
     #[arg(long)]
     fresh: bool,
     /// Number the drawings from 1; corrections stay.
