@@ -116,10 +116,10 @@ impl Arrays<'_> {
         let (joints, value) = (self.names.len(), values[at]);
         let place = match (what, self.places) {
             ("offsets", _) => format!("offsets of {}", self.names[at / 3]),
-            (_, Places::Root(_)) => format!("root, frame {}", at / 3),
+            (_, Places::Root(_)) => format!("root, row {}", at / 3),
             (_, Places::Each(_)) => {
                 let joint = &self.names[at / 3 % joints];
-                format!("translations of {joint}, frame {}", at / 3 / joints)
+                format!("translations of {joint}, row {}", at / 3 / joints)
             }
         };
         Err(Error::clip(format!(
@@ -134,7 +134,7 @@ impl Arrays<'_> {
         match (rotation.length() - 1.0).abs() < 1e-2 {
             true => Ok(rotation.normalize()),
             false => Err(Error::clip(format!(
-                "frame {frame}: the rotation of {} has length {}; a unit quaternion (x, y, z, w) has length 1",
+                "row {frame}: the rotation of {} has length {}; a unit quaternion (x, y, z, w) has length 1",
                 joint.name,
                 rotation.length()
             ))),

@@ -662,9 +662,9 @@ def test_wrong_arrays_are_refused_in_words(clip):
     "name, shape, at, says",
     [
         ("offsets", (2, 3), (1, 2), "offsets of b: nan is not a length"),
-        ("rotations", (5, 2, 4), (3, 1, 0), "frame 3: the rotation of b has length NaN"),
-        ("root", (5, 3), (4, 1), "root, frame 4: nan is not a length"),
-        ("translations", (5, 2, 3), (2, 1, 1), "translations of b, frame 2: nan is not a length"),
+        ("rotations", (5, 2, 4), (3, 1, 0), "row 3: the rotation of b has length NaN"),
+        ("root", (5, 3), (4, 1), "root, row 4: nan is not a length"),
+        ("translations", (5, 2, 3), (2, 1, 1), "translations of b, row 2: nan is not a length"),
         ("tips", (2, 3), (0, 1), "a tip is three numbers, or three NaN"),
     ],
 )

@@ -58,7 +58,7 @@ fn help() -> String {
          are counted before timing, without both ends and corrections. `genga run` counts both\n  \
          ends, and on its sheet a key that is too close to another or to an end gives way.\n\n\
          Columns:\n  mean, worst    error of the motion slerped between the keys, mean over koma and worst koma:\n                 \
-         root mean square over the body, in % of its height\n  \
+         root mean square over joints and tips, weighed by bones, in % of body height\n  \
          × mean, worst  the same errors as a multiple of the least possible with as many keys\n  \
          hits           share of the largest turns of wrists, ankles or head in the world, as many as keys,\n                 \
          that have a key within a koma\n  \

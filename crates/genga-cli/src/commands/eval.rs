@@ -39,7 +39,7 @@ pub(super) struct EvalArgs {
 const HELP: &str = "\
 Measures:
   keys alone     error of the motion slerped between the genga and both ends of the clip, against the
-                 source at each koma: root mean square over the body, in % of its height
+                 source at each koma: root mean square over joints and tips, weighed by bones, in % of body height
   on screen      the same error, of the drawing that the sheet shows at each koma
   slip           how far a foot moves along the ground while it stands in the source
   in source      the same distance in the source, over the same koma

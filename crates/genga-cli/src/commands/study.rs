@@ -103,8 +103,8 @@ fn study_help() -> String {
         format!("\n  {measure:<21}{english} ({japanese})")
     });
     format!(
-        "Axes:\n  KNOB is any setting of `genga recipe`, or noise (degrees of Gaussian noise on every rotation) \
-         or\n  noise.seed (0, unless it varies). VALUES is a list; FROM..TO:STEP is a range, which includes TO if a \
+        "Axes:\n  KNOB is any setting of `genga recipe`, or noise (standard deviation in degrees of Gaussian \
+         noise,\n  independent for every rotation channel and frame) or noise.seed (0, unless it varies). VALUES is a list; FROM..TO:STEP is a range, which includes TO if a \
          step\n  lands on it. Values keep their units: 0.1s..0.5s:0.05s. With both axes of Table 1 of the first paper, \
          filter.width and\n  turns.persistence, the recipe is that of Table 1 (`genga recipe --study`), else and \
          with --stability\n  that of `genga run`; --recipe goes over both.\n\n\
