@@ -35,6 +35,7 @@ mod weights;
 
 use std::ops::RangeInclusive;
 
+use crate::edits::Forbidden;
 use crate::motion::JointId;
 use crate::sheet::Reason;
 use crate::time::Frame;
@@ -196,6 +197,17 @@ pub struct LayerKeys {
     pub gaits: Vec<Walk>,
     /// Number of keys that were worth a drawing but dropped, because there were too many a second.
     pub over_limit: usize,
+}
+
+impl LayerKeys {
+    /// Returns the frames of the keys that a ban takes away, `koma` frames a koma. Beside a forbidden phase of a step others
+    /// stay, however near, and so does what a person sets.
+    pub fn taken_by(&self, ban: Forbidden, koma: f64) -> impl Iterator<Item = Frame> {
+        let is_there = |frame: Frame| self.keys.iter().any(|key| key.frame == frame);
+        let reached =
+            self.free.iter().map(|key| key.frame).filter(move |at| ban.reaches(*at, koma));
+        reached.filter(move |at| !is_there(*at))
+    }
 }
 
 #[cfg(test)]

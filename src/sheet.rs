@@ -309,7 +309,17 @@ impl Layer {
 
     /// Returns how many drawings come on screen a second. Those of a loop come in every round.
     pub fn drawings_per_second(&self, koma_rate: f64) -> f64 {
-        self.changes().count() as f64 * koma_rate / self.length().max(1) as f64
+        self.per_second(self.changes().count(), koma_rate)
+    }
+
+    /// Returns how many genga come on screen a second, ends included.
+    pub fn genga_per_second(&self, koma_rate: f64) -> f64 {
+        let is_kept = |(_, drawing): &(usize, usize)| self.drawings[*drawing].role.is_kept();
+        self.per_second(self.changes().filter(is_kept).count(), koma_rate)
+    }
+
+    fn per_second(&self, count: usize, koma_rate: f64) -> f64 {
+        count as f64 * koma_rate / self.length().max(1) as f64
     }
 
     /// Returns the koma on which each drawing is first shown; `None` if it never is.

@@ -21,7 +21,7 @@ pub(super) fn meet<C: Counter>(
         Target::DrawingsPerSecond(_) => {
             let breakdown = counter.engine().run(&met.0, edits)?;
             let seconds = breakdown.sheet.length() as f64 / breakdown.clock.koma_rate;
-            0.5 / seconds + 1e-9
+            0.5 * breakdown.sheet.rounds() as f64 / seconds + 1e-9
         }
         Target::Keys(_) | Target::MaxError(_) => 0.0,
     };

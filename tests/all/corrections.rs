@@ -217,6 +217,16 @@ fn the_summary_says_what_each_correction_did() {
             "move 71:74: genga 12",
         ]
     );
+    // Within a koma of the genga it is that one that moves.
+    place.done("run data/kuroda-pitch.bvh --out p");
+    let genga = fs::read_to_string(place.path("p/keys.csv")).unwrap();
+    let frame: usize = column(&genga, "source_frame")[3].parse().unwrap();
+    let said = place.said(&format!(
+        "run data/kuroda-pitch.bvh --move {}:{} --out p",
+        frame - 1,
+        frame + 2
+    ));
+    assert!(!said.contains("in place of"), "{said}");
     for (to, outcome) in [(28, "genga 3 in place of 28"), (30, "genga 4, past the genga at 28")] {
         let said = place.said(&format!("run data/kick.bvh --move 21:{to} --fresh --out a"));
         assert!(said.contains(&format!("move 21:{to}: {outcome}\n")), "{said}");

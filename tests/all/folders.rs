@@ -105,6 +105,10 @@ fn settings_of_formats_stay_with_them() {
     place.done("deliver a data/kick.bvh --to remap --with remap.pictures=%04d.png --out a");
     let list = text(&place.files("a")["remap.ffconcat"]);
     assert!(!list.contains("shot_"), "{list}");
+    // What a delivery sets back to the default stays so.
+    place.done("run data/kick.bvh --pin 62 --out a");
+    let list = text(&place.files("a")["remap.ffconcat"]);
+    assert!(!list.contains("shot_"), "{list}");
     place.done("run data/kick.bvh --fresh --out a");
     place.done("run data/kick.bvh --out c");
     assert_eq!(all(&place.path("a")), all(&place.path("c")));
@@ -137,11 +141,41 @@ fn a_recipe_from_which_a_line_was_deleted_is_not_in_the_way() {
         said.contains("pin 42") && said.contains("pin 61") && !said.contains("forbid"),
         "{said}"
     );
-    // A person's own comment stays.
-    let noted = text(&place.files("a")["recipe.toml"]) + "# for the director\n";
-    fs::write(place.path("a/recipe.toml"), &noted).unwrap();
-    place.done("run data/kick.bvh --recipe a/recipe.toml --out a");
-    assert_eq!(text(&place.files("a")["recipe.toml"]), noted);
+    // A person's own comment stays, also one that is part of a comment of genga's.
+    for comment in ["# for the director", "# keys"] {
+        let noted = format!("{}{comment}\n", text(&place.files("a")["recipe.toml"]));
+        fs::write(place.path("a/recipe.toml"), &noted).unwrap();
+        place.done("run data/kick.bvh --recipe a/recipe.toml --out a");
+        assert!(text(&place.files("a")["recipe.toml"]) == noted, "{comment}");
+    }
+}
+
+#[test]
+fn a_file_that_a_run_reads_is_not_removed() {
+    let place = Place::new();
+    place.done("run data/kick.bvh --deliver xdts --out a");
+    let said = place.said("run data/kick.bvh --pin-from a/kick_genga_ts.xdts --out a");
+    let told = "not of this sheet, kept because this run reads it: kick_genga_ts.xdts";
+    assert!(said.contains(told), "{said}");
+    assert!(place.path("a/kick_genga_ts.xdts").is_file());
+}
+
+#[test]
+fn settings_that_stay_and_do_not_fit_name_their_recipe() {
+    let place = Place::new();
+    place.done("run data/kick.bvh --layers limbs --set B/spacing.on=3 --out a");
+    place.done("run data/kick.bvh --within 20..40:spacing.on=1 --out b");
+    for (args, says) in [
+        ("run data/kick.bvh --layers body --out a", "there is no layer B to set"),
+        ("run data/kick.bvh --trim 50..80 --out b", "is not in the clip"),
+    ] {
+        let said = place.refused(2, args);
+        let from = format!(
+            "settings stay from {}/recipe.toml, and --fresh goes without them",
+            &args[args.len() - 1..]
+        );
+        assert!(said.contains(says) && said.contains(&from), "{said}");
+    }
 }
 
 /// Of an edited sheet only what is delivered has the new timing.

@@ -41,7 +41,19 @@ fn pictures_of_a_loop_name_the_frames_of_the_clip() {
         let number = |name: &str| report[name].as_f64().unwrap();
         let a_round = number("drawings") * 24.0 * f64::from(cycles) / number("koma");
         assert!((number("drawings_per_second") - a_round).abs() < 1e-9, "{report}");
+        let a_round = number("genga") * 24.0 * f64::from(cycles) / number("koma");
+        assert!((number("genga_per_second") - a_round).abs() < 1e-9, "{report}");
     }
+}
+
+#[test]
+fn a_loop_that_stays_from_the_run_before_is_known_as_one() {
+    let place = Place::new();
+    let seam = "the seam of the loop may show";
+    let said = place.said("run data/tennis.bvh --trim 7..60 --loop --out a");
+    assert!(said.contains(seam), "{said}");
+    let said = place.said("run data/tennis.bvh --trim 7..60 --pin 20 --out a");
+    assert!(said.contains(seam), "{said}");
 }
 
 /// The looped sheet of a clip with some changed settings.

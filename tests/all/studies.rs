@@ -379,6 +379,12 @@ fn a_broken_clip_does_not_end_the_table_of_the_others() {
         let is_row = |name: &str| rows.iter().any(|row| row == name);
         assert!(is_row("kick") && is_row("pitch") && !is_row("broken"), "{command}: {rows:?}");
         fs::remove_file(place.path("t.csv")).unwrap();
+        // A frame that one clip lacks is its own fault.
+        let output = place.genga(&format!("{} --trim 0..120", of("data/kick.bvh data/pitch.bvh")));
+        let said = text(&output.stderr);
+        assert!(said.contains("data/kick.bvh: --trim: cannot keep"), "{said}");
+        assert_eq!(output.status.code(), Some(1), "{said}");
+        fs::remove_file(place.path("t.csv")).unwrap();
         // There is no table without a clip.
         place.refused(1, &of("broken.bvh"));
         place.refused(1, &of("broken.bvh broken.bvh"));

@@ -220,7 +220,7 @@ impl Part {
     ) -> Result<Vec<NamedClip<'a>>, Failure> {
         let mut clips = Vec::with_capacity(paths.len());
         for (name, path) in paths::names(paths).into_iter().zip(paths) {
-            let Some(source) = several.keep(self.read(path))? else { continue };
+            let Some(source) = several.keep(path, self.read(path))? else { continue };
             let of = if paths.len() > 1 { format!("{}: ", path.display()) } else { String::new() };
             source.notes.iter().for_each(|warning| words.warn_of(&of, warning));
             clips.push(NamedClip { name, path, clip: source.clip });

@@ -38,6 +38,8 @@ pub(super) struct Made<'a> {
     pub(super) adds: bool,
     /// An input file that may be overwritten.
     pub(super) given: Option<&'a str>,
+    /// The files that the run read, which are not removed.
+    pub(super) sources: Vec<&'a Path>,
 }
 
 /// Files in the folder that are not part of this run.
@@ -50,6 +52,8 @@ pub(super) struct Left {
     changed: Vec<String>,
     /// Files of an earlier run that lie behind a link to another folder.
     linked: Vec<String>,
+    /// Files of an earlier run that this one read.
+    read: Vec<String>,
     /// Numbered files of a longer sheet that no manifest lists.
     stale: Vec<String>,
 }
@@ -69,6 +73,7 @@ impl Left {
                 self.changed,
             ),
             ("of an earlier run, kept because a link leads to them", self.linked),
+            ("of an earlier run and not of this sheet, kept because this run reads it", self.read),
             ("of an earlier sheet, not of this one", self.stale),
         ];
         groups.into_iter().filter_map(|(of, files)| named(of, files)).collect()
@@ -163,29 +168,28 @@ impl<'a> Folder<'a> {
             |name: &String| self.digest(name).is_some_and(|digest| self.has(name, &digest));
         let (mut gone, changed): (Vec<_>, Vec<_>) = rest.into_iter().partition(is_as_written);
         let linked: Vec<_> = gone.extract_if(.., |name| self.is_behind_link(name)).collect();
+        let is_read = |name: &String| {
+            made.sources.iter().any(|path| paths::is_same(path, &self.path.join(name)))
+        };
+        let read: Vec<_> = gone.extract_if(.., |name| is_read(name)).collect();
         let is_known =
-            |name: &String| [&gone, &changed, &linked].iter().any(|of| of.contains(name));
+            |name: &String| [&gone, &changed, &linked, &read].iter().any(|of| of.contains(name));
         let stale = made.stale.into_iter().filter(|name| !is_known(name)).collect();
         let recipe = made.recipe.or_else(|| self.before.as_ref()?.recipe.clone());
-        let (mut formats, mut settings) = match made.adds {
-            true => (self.formats(&made.clip), self.settings(&made.clip)),
-            false => Default::default(),
-        };
-        formats.extend(made.formats);
-        settings.extend(made.settings);
-        let formats: BTreeSet<&str> = formats.into_iter().collect();
+        let before = if made.adds { self.formats(&made.clip) } else { vec![] };
+        let formats: BTreeSet<&str> = before.into_iter().chain(made.formats).collect();
         let mut manifest = Manifest::new(made.clip);
         manifest.formats = formats.into_iter().map(str::to_owned).collect();
-        manifest.settings = settings;
+        manifest.settings = made.settings;
         manifest.recipe = recipe;
-        // What a person changed is listed as it was written, so that the next run tells of it again.
+        // What a person changed, or the run reads, is listed as it was written, so that the next run tells of it again.
         let digest =
             |name: &String| Some((name.clone(), self.before.as_ref()?.files.get(name)?.clone()));
-        let changed_since = changed.iter().filter_map(digest);
+        let changed_since = changed.iter().chain(&read).filter_map(digest);
         manifest.files = stay.into_iter().chain(come).chain(changed_since).collect();
         bundle.add(Run::MANIFEST, manifest.write()?)?;
         bundle.finish(gone.clone())?;
-        Ok(Left { painted, gone, changed, linked, stale })
+        Ok(Left { painted, gone, changed, linked, read, stale })
     }
 
     /// Splits the previous run's files that this run does not write into those that stay in the manifest and the names

@@ -253,6 +253,8 @@ pub(super) struct Formats {
     formats: Vec<&'static Format>,
     /// Formats requested by name, not only through `all`.
     named: Vec<&'static str>,
+    /// Formats that the folder has.
+    again: Vec<&'static str>,
     settings: Settings,
     is_forced: bool,
 }
@@ -280,7 +282,7 @@ impl Formats {
         let named = found(&by_name)?.iter().map(|format| format.name).collect();
         let mut settings = args.look.settings()?;
         settings.vmd.map = bones.cloned();
-        Ok(Self { formats, named, settings, is_forced: args.force })
+        Ok(Self { formats, named, again: vec![], settings, is_forced: args.force })
     }
 
     /// Replaces the settings.
@@ -335,19 +337,21 @@ impl Formats {
         format!("{:?} {named:?} {settings:?}", self.names())
     }
 
-    /// Adds formats by name, as `all` has them: one that cannot be made is left out.
-    pub(super) fn with(mut self, names: &[&str]) -> Self {
+    /// Adds formats that the folder has. One that cannot be made is left out.
+    pub(super) fn with(mut self, names: &[&'static str]) -> Self {
         let is_wanted = |format: &&Format| self.writes(format.name) || names.contains(&format.name);
         self.formats = FORMATS.iter().filter(is_wanted).collect();
+        self.again = names.to_vec();
         self
     }
 
     /// Lays the settings given now over those that the formats of the folder had. Returns what was kept and what cannot
     /// be, in words.
-    pub(super) fn over(
+    pub(super) fn lay_over(
         &mut self,
         before: &BTreeMap<String, String>,
         args: &FormatArgs,
+        way_out: &str,
     ) -> Result<Vec<String>, Failure> {
         let mut settings = Settings::default();
         let before = before.iter().filter(|(name, _)| !args.look.gives(name));
@@ -359,8 +363,8 @@ impl Formats {
         settings.vmd.map = self.settings.vmd.map.take();
         self.settings = settings;
         let said = [
-            (kept, "settings of formats, as the folder has them (--fresh goes without)"),
-            (lost, "settings of formats that do not stay; give them again"),
+            (kept, format!("settings of formats, as the folder has them ({way_out})")),
+            (lost, "settings of formats that do not stay; give them again".into()),
         ];
         let said = said.into_iter().filter(|(settings, _)| !settings.is_empty());
         Ok(said.map(|(settings, what)| format!("{what}: {}", options(&settings))).collect())
@@ -440,7 +444,10 @@ impl Formats {
                 said.unmade.push((format, error));
             }
             Attempt::NotMade(error) => {
-                let message = format!("all goes without {}: {error}", format.name);
+                let message = match self.again.contains(&format.name) {
+                    true => format!("{} is not written again: {error}", format.name),
+                    false => format!("all goes without {}: {error}", format.name),
+                };
                 said.notes.push(Warning::new("W_LEFT_OUT_OF_ALL", message));
             }
         }

@@ -28,7 +28,7 @@ pub(super) fn keep(
                 "{failure}; its corrections cannot be kept: --fresh goes without"
             ))
         })?;
-    let stay = plan.on(&settings)?;
+    let stay = plan.stay_on(&settings, &path)?;
     let (listed, from) = (list(&before), path.display());
     let usable = usable(before, &plan.recipe, engine)?;
     let has_place = list(&usable);

@@ -125,8 +125,9 @@ impl Outcomes<'_> {
         self.own.keys.keys.iter().find(is_moved)?;
         let number = self.number(to)?;
         let koma = self.clock.frames_in_koma();
+        let own = frames(&self.own.keys.free).min_by_key(|at| at.0.abs_diff(from.0));
         let is_gone = |at: &Frame| {
-            *at != from && (at.0.abs_diff(to.0) as f64) < koma && (*at == to || !self.has(*at))
+            Some(*at) != own && (at.0.abs_diff(to.0) as f64) < koma && (*at == to || !self.has(*at))
         };
         let gone: Vec<Frame> = frames(&self.own.keys.free).filter(is_gone).collect();
         let passed: Vec<Frame> =

@@ -90,6 +90,8 @@ pub(super) struct Plan<'a> {
     pub(super) read: Edits,
     /// Names of the settings that the recipe changes, without those of the command line.
     set: Vec<String>,
+    /// The recipe of an earlier run in the folder, if settings of it stay.
+    stay_from: Option<String>,
 }
 
 impl PlanArgs {
@@ -125,7 +127,15 @@ impl PlanArgs {
 impl<'a> Plan<'a> {
     /// Builds a plan from a recipe and corrections already read.
     pub(super) fn with(args: &'a PlanArgs, recipe: Recipe, edits: Edits) -> Self {
-        Self { args, recipe, edits, is_corrected: true, read: Edits::default(), set: vec![] }
+        Self {
+            args,
+            recipe,
+            edits,
+            is_corrected: true,
+            read: Edits::default(),
+            set: vec![],
+            stay_from: None,
+        }
     }
 
     /// Reads the recipe, and refuses what is impossible whatever the motion is.
@@ -135,7 +145,7 @@ impl<'a> Plan<'a> {
         let (set, of_recipe) = (args.corrections.settings.changed(&read.0), read.1.clone());
         let (recipe, edits) = args.corrections.put_over(read)?;
         let is_corrected = !of_recipe.is_empty();
-        Ok(Self { args, recipe, edits, is_corrected, read: of_recipe, set })
+        Ok(Self { args, recipe, edits, is_corrected, read: of_recipe, set, stay_from: None })
     }
 
     /// Returns a function that adds a file's path to an error: that of the recipe if the fault is in it, else the
@@ -146,6 +156,7 @@ impl<'a> Plan<'a> {
         let wrong = wrong.map(|error| error.to_string());
         let is_corrected_there = !self.read.is_empty() && self.edits == self.read;
         let (path, set) = (self.args.clip.path.clone(), self.set.clone());
+        let stay_from = self.stay_from.clone();
         move |error| {
             let is_there = match &error {
                 Error::Edits { .. } => is_corrected_there || wrong == Some(error.to_string()),
@@ -156,7 +167,7 @@ impl<'a> Plan<'a> {
                 Some(recipe) => {
                     Failure::AskedWrongly(format!("{}: {error}", named(recipe).display()))
                 }
-                None => files::fault_of(&path)(error),
+                None => among_settings_that_stay(stay_from.as_deref(), error, &path),
             }
         }
     }
@@ -181,9 +192,13 @@ impl<'a> Plan<'a> {
         Ok((engine, source.of))
     }
 
-    /// Lays the settings of the command line over those of an earlier run, unless a recipe is named. Returns those that
-    /// stay and are not the default ones.
-    pub(super) fn on(&mut self, earlier: &Recipe) -> Result<Vec<(String, String)>, Failure> {
+    /// Lays the settings of the command line over those of an earlier run, whose recipe is `from`, unless a recipe is
+    /// named. Returns those that stay and are not the default ones.
+    pub(super) fn stay_on(
+        &mut self,
+        earlier: &Recipe,
+        from: &Path,
+    ) -> Result<Vec<(String, String)>, Failure> {
         let corrections = &self.args.corrections;
         if corrections.settings.recipe.is_some() {
             return Ok(vec![]);
@@ -196,7 +211,9 @@ impl<'a> Plan<'a> {
         }
         let [usual, now] = [&Recipe::default(), &self.recipe].map(Recipe::settings);
         let stays = |own: &(String, String)| !usual.contains(own) && now.contains(own);
-        Ok(earlier.settings().into_iter().filter(stays).collect())
+        let stay: Vec<_> = earlier.settings().into_iter().filter(stays).collect();
+        self.stay_from = (!stay.is_empty()).then(|| from.display().to_string());
+        Ok(stay)
     }
 
     /// Returns the corrections over those of an earlier run. A number of keys that is asked for now overrules switches
@@ -339,6 +356,16 @@ fn furthest_off(met: &Met) -> Option<f64> {
     let mut met_ones = met.outcomes.iter().filter(|outcome| outcome.shortfall.is_none());
     let of_error = met_ones.find(|outcome| matches!(outcome.target, Target::MaxError(_)));
     of_error.map(|outcome| outcome.reached)
+}
+
+/// Adds to the error of a setting where other settings come from that nobody gave now, or the clip's path to another.
+fn among_settings_that_stay(stay_from: Option<&str>, error: Error, clip: &Path) -> Failure {
+    match (stay_from, error) {
+        (Some(from), error @ Error::Setting { .. }) => Failure::AskedWrongly(format!(
+            "{error}; settings stay from {from}, and --fresh goes without them"
+        )),
+        (_, error) => files::fault_of(clip)(error),
+    }
 }
 
 /// Whether a setting is of a name or of a table of that name.

@@ -11,6 +11,7 @@ use genga::pipeline::Breakdown;
 use genga::recipe::Recipe;
 use genga::sheet::Renumbered;
 use genga_files::{ClipMark, Manifest, Report, Run, numbers_csv};
+use std::path::Path;
 
 /// Files of a run that belong to no output format.
 pub(super) const OWN: [&str; 4] = [Run::SPEEDS, Run::RECIPE, Run::REPORT, Run::MANIFEST];
@@ -29,6 +30,8 @@ pub(super) struct Results<'a> {
     pub(super) notes: Vec<String>,
     /// Whether `--recipe` names the recipe in the folder, which may then be overwritten.
     pub(super) is_own_recipe: bool,
+    /// The files that the run read.
+    pub(super) sources: Vec<&'a Path>,
     /// Why the recipe in the folder is kept as it is. `None` if it is written.
     pub(super) kept: Option<&'static str>,
     /// Callback before each file is written, which may stop the writing.
@@ -80,6 +83,7 @@ impl Results<'_> {
             stale: written.stale,
             adds: false,
             given: self.is_own_recipe.then_some(Run::RECIPE),
+            sources: self.sources,
         };
         let left = folder.finish(bundle, made)?;
         written.files.extend(OWN.map(str::to_owned));

@@ -1,5 +1,7 @@
 //! Commands that take several clips (何本かの動き): a broken one does not end the work on the others.
 
+use std::path::Path;
+
 use super::console::{Words, counted};
 use super::failure::Failure;
 
@@ -15,16 +17,23 @@ impl<'a> Several<'a> {
         Self { words, clips, failed: 0 }
     }
 
-    /// Returns what was made of a clip, or `None` after the reason why it failed was told. The failure ends the command
-    /// if there is no other clip to work on, or if the command line is wrong, which no other clip would mend.
-    pub(super) fn keep<T>(&mut self, made: Result<T, Failure>) -> Result<Option<T>, Failure> {
-        let reason = match made {
+    /// Returns what was made of the clip of a file, or `None` after the reason why it failed was told. The failure ends
+    /// the command if no clip is left to work on.
+    pub(super) fn keep<T>(
+        &mut self,
+        path: &Path,
+        made: Result<T, Failure>,
+    ) -> Result<Option<T>, Failure> {
+        let failure = match made {
             Ok(made) => return Ok(Some(made)),
-            Err(Failure::CouldNot(reason)) if self.failed + 1 < self.clips => reason,
-            Err(failure) => return Err(failure),
+            Err(failure @ (Failure::Stopped(_) | Failure::ClosedPipe)) => return Err(failure),
+            Err(failure) if self.failed + 1 == self.clips => return Err(failure),
+            Err(failure) => failure.to_string(),
         };
         self.failed += 1;
-        self.words.error(reason);
+        let path = path.display().to_string();
+        let of = if failure.starts_with(&path) { String::new() } else { format!("{path}: ") };
+        self.words.error(format_args!("{of}{failure}"));
         Ok(None)
     }
 

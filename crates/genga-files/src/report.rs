@@ -196,7 +196,6 @@ impl Report {
         let layer = &breakdown.sheet.layers[0];
         let koma = layer.length();
         let koma_rate = breakdown.clock.koma_rate;
-        let per_second = |count: usize| count as f64 * koma_rate / koma as f64;
         let first = breakdown.first_layer();
         Self {
             frames: breakdown.clip.len(),
@@ -214,7 +213,7 @@ impl Report {
             },
             candidates: first.candidates.keys.len(),
             genga: layer.genga(),
-            genga_per_second: per_second(layer.genga()),
+            genga_per_second: layer.genga_per_second(koma_rate),
             genga_over_limit: first.keys.over_limit,
             drawings: layer.shown().count(),
             drawings_per_second: layer.drawings_per_second(koma_rate),

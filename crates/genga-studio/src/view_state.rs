@@ -149,17 +149,16 @@ impl<'a> Shown<'a> {
     pub(super) fn taken_away(&self, column: &Column<'_>, ban: Forbidden) -> Vec<(usize, Frame)> {
         let edits = self.wanted.edits.of_layer(column.name);
         let length = |ban: &Forbidden| ban.past.0 - ban.from.0;
-        let koma = column.clock.frames_in_koma();
+        let in_koma = column.clock.frames_in_koma();
         let is_its = |frame: &Frame| {
-            let bans = edits.forbidden.iter().filter(|own| own.reaches(*frame, koma));
-            // Most genga are reached by no ban, and need no comparison.
-            ban.reaches(*frame, koma) && bans.min_by_key(|own| length(own)) == Some(&ban)
+            let bans = edits.forbidden.iter().filter(|own| own.reaches(*frame, in_koma));
+            bans.min_by_key(|own| length(own)) == Some(&ban)
         };
         let seen =
             |frame: Frame| self.taken.iter().rfind(|own| (own.ban, own.frame) == (ban, frame));
         let koma =
             |frame| seen(frame).map_or_else(|| column.clock.koma_from_frame(frame), |own| own.koma);
-        let taken = column.found.keys.free.iter().map(|key| key.frame).filter(is_its);
+        let taken = column.found.keys.taken_by(ban, in_koma).filter(is_its);
         taken.map(|frame| (koma(frame), frame)).collect()
     }
 

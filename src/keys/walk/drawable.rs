@@ -81,10 +81,12 @@ impl Drawable<'_> {
         let Edits { pins, moves, forbidden, .. } = self.edits;
         let mut are_taken = vec![false; frames.len()];
         let mut take = |away: &dyn Fn(Frame) -> Option<usize>, means_one: bool| {
-            let away = |frame: &Option<Frame>| frame.and_then(away);
-            let nearest = frames.iter().filter_map(away).min();
-            for (is_taken, frame) in are_taken.iter_mut().zip(frames) {
-                *is_taken |= away(frame).is_some_and(|far| !means_one || Some(far) == nearest);
+            let near = frames.iter().enumerate();
+            let near = near.filter_map(|(at, frame)| Some((at, frame.and_then(away)?)));
+            let nearest = near.clone().min_by_key(|(_, far)| *far).filter(|_| means_one);
+            match nearest {
+                Some((at, _)) => are_taken[at] = true,
+                None => near.for_each(|(at, _)| are_taken[at] = true),
             }
         };
         let within = |place: Frame, frame: Frame, most: f64| {

@@ -151,6 +151,7 @@ impl Placing {
         let mut at = begin;
         let mut begins = Vec::new();
         let exposures = self.exposures.of_step((end - begin).max(0) as usize);
+        debug_assert!(exposures.len() < step.taken.len() && step.taken.len() == step.frames.len());
         for (exposure, is_taken) in exposures.into_iter().zip(&step.taken) {
             begins.push(at);
             // An inbetween takes the place of a genga that is taken away.

@@ -93,7 +93,7 @@ pub(super) fn run(args: &CompareArgs, words: &Words) -> Result<(), Failure> {
     // Runs clips one after the other: each uses all cores, and parallel runs would make the times meaningless.
     for NamedClip { name, path, clip } in clips {
         let compared = asked.run(clip).map_err(files::fault_of(path));
-        let Some(comparison) = several.keep(compared)? else { continue };
+        let Some(comparison) = several.keep(path, compared)? else { continue };
         if comparison.koma > asked.longest {
             let longest = asked.longest;
             words.say(format_args!(

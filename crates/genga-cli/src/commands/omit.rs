@@ -72,7 +72,7 @@ pub(super) fn run(args: &OmitArgs, words: &Words) -> Result<(), Failure> {
         if args.clips.len() > 1 {
             words.say(format_args!("clip        動き       {name}"));
         }
-        rows.extend(several.keep(one(args, (name, path), words))?);
+        rows.extend(several.keep(path, one(args, (name, path), words))?);
     }
     if let Some(path) = &args.table {
         files::write(path, genga_files::omission_csv(&rows)?.as_bytes())?;

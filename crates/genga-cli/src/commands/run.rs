@@ -2,6 +2,7 @@
 
 mod passages;
 
+use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 use clap::{Arg, ArgAction, Args};
@@ -18,7 +19,9 @@ use crate::{cut_args, files, kept, outcomes, part_of_take, paths, pin_args};
 use genga::edits::Edits;
 use genga::pipeline::Breakdown;
 use genga::recipe::Recipe;
-use genga_files::{ClipMark, GaitReport, LayerReport, LoopReport, Report, Run, run_notes};
+use genga_files::{
+    ClipMark, Cut, Format, GaitReport, LayerReport, LoopReport, Report, Run, run_notes,
+};
 
 #[derive(Debug, Args)]
 #[command(after_help = help(), after_long_help = long_help(), disable_help_flag = true, arg = help_flag())]
@@ -87,14 +90,13 @@ pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
         words.warn_if_quiet(warning);
         notes.push(warning.to_string());
     })?;
-    notes.extend(run_notes::of_cycle(engine.clip(), plan.recipe.r#loop));
     let place = Folder::look(&folder, args.formats.over());
     place.check(&of)?;
     let again = again(args, &place, &of, &formats);
     formats = formats.with(&again);
     let mut kept_formats = match args.fresh {
         true => vec![],
-        false => formats.over(&place.settings(&of), &args.formats)?,
+        false => formats.lay_over(&place.settings(&of), &args.formats, "--fresh goes without")?,
     };
     if !again.is_empty() {
         let again = again.join(", ");
@@ -113,6 +115,7 @@ pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
         true if is_again => kept::left_out(&folder, &plan.edits).into_iter().collect(),
         _ => vec![],
     };
+    notes.extend(run_notes::of_cycle(engine.clip(), plan.recipe.r#loop));
     working.on("finding the key drawings");
     plan.settle(&mut engine, words, &mut |note| notes.push(note))?;
     let (Plan { recipe, edits, .. }, fault) = (&plan, plan.fault_of(&engine));
@@ -136,6 +139,7 @@ pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
         renumbered: &numbering.drawings,
         notes,
         is_own_recipe: given(args, &folder).is_some(),
+        sources: sources(args).map(|(_, path)| path).collect(),
         kept: kept(given(args, &folder), (recipe, edits)),
         tell: &|_| Ok(()),
     };
@@ -171,25 +175,33 @@ fn again(
         return vec![];
     }
     let (folder, cut) = (place.path(), paths::stem(&args.plan.clip.path));
-    let may_be_written = |name: &&'static str| {
-        let with = formats.clone().with(&[*name]);
-        !formats.writes(name) && spare(args, &with, folder, &cut).is_ok()
+    let is_read = |file: &&str| {
+        let file = folder.join(Cut::file_of(&cut, file));
+        sources(args).any(|(_, path)| paths::is_same(path, &file))
+    };
+    let may_be_written = |name: &&str| {
+        let format = Format::find(name).ok().filter(|_| !formats.writes(name));
+        format.is_some_and(|format| !format.files.iter().any(&is_read))
     };
     place.formats(clip).into_iter().filter(may_be_written).collect()
 }
 
-/// Refuses to overwrite an input or an edited sheet.
-fn spare(args: &RunArgs, formats: &Formats, folder: &Path, cut: &str) -> Result<(), Failure> {
-    let (clip, corrections) = (&args.plan.clip, &args.plan.corrections);
-    pin_args::spare(corrections, formats, folder, cut)?;
-    let reading = clip.part.reading();
+/// The files that are read, and what each is.
+fn sources(args: &RunArgs) -> impl Iterator<Item = (&'static str, &Path)> {
+    let (clip, reading) = (&args.plan.clip, args.plan.clip.part.reading());
     let of_motion = [
         ("motion", Some(&*clip.path)),
         ("table of bones", reading.bones.as_deref()),
         ("camera", reading.camera_work.as_deref()),
     ];
-    let sources = of_motion.into_iter().chain(corrections.sources());
-    for (what, path) in sources.filter_map(|(what, path)| Some((what, path?))) {
+    let sources = of_motion.into_iter().chain(args.plan.corrections.sources());
+    sources.filter_map(|(what, path)| Some((what, path?)))
+}
+
+/// Refuses to overwrite an input or an edited sheet.
+fn spare(args: &RunArgs, formats: &Formats, folder: &Path, cut: &str) -> Result<(), Failure> {
+    pin_args::spare(&args.plan.corrections, formats, folder, cut)?;
+    for (what, path) in sources(args) {
         formats.spare(what, path, folder, cut)?;
         let mut own = OWN.iter().filter(|file| (what, **file) != ("recipe", Run::RECIPE));
         own.try_for_each(|file| paths::spare(&[(what, Some(path))], &folder.join(file)))?;
@@ -217,9 +229,11 @@ fn kept(given: Option<&Path>, used: (&Recipe, &Edits)) -> Option<&'static str> {
 /// Whether a recipe is one that genga wrote and a person changed, without comments that would be lost if it was written
 /// again.
 fn is_edit_of(text: &str, written: &str) -> bool {
-    let comments = text.lines().filter_map(|line| Some(line.split_once('#')?.1.trim()));
-    text.lines().next() == written.lines().next()
-        && comments.filter(|comment| !comment.is_empty()).all(|comment| written.contains(comment))
+    let comments = |text: &str| -> HashSet<String> {
+        let comment = |line: &str| Some(line.split_once('#')?.1.trim().to_owned());
+        text.lines().filter_map(comment).filter(|comment| !comment.is_empty()).collect()
+    };
+    text.lines().next() == written.lines().next() && comments(text).is_subset(&comments(written))
 }
 
 fn summary(words: &Words, cut: &str, report: &Report) {

@@ -354,23 +354,23 @@ fn usually_shown(study: &Study) -> Measure {
 }
 
 /// Runs the study of every clip. Returns the names of the clips and their grids.
-fn swept(
+fn swept<'a>(
     study: &Study,
-    clips: Vec<NamedClip<'_>>,
+    clips: Vec<NamedClip<'a>>,
     several: &mut Several<'_>,
     words: &Words,
 ) -> Result<(Vec<String>, Vec<Grid>), Failure> {
     let counter = words.counting(study.len() * clips.len(), "cells");
-    let grid = |NamedClip { name, path, clip }: NamedClip<'_>| {
-        let grid = study.run(clip, || counter.count()).map_err(files::fault_of(path))?;
-        Ok((name, grid))
+    let grid = |NamedClip { name, path, clip }: NamedClip<'a>| {
+        let grid = study.run(clip, || counter.count()).map_err(files::fault_of(path));
+        (path, grid.map(|grid| (name, grid)))
     };
     let grids: Vec<_> = clips.into_par_iter().map(grid).collect();
     drop(counter);
     // What fails is told in the order of the clips, whichever thread failed first.
     let mut kept = (Vec::new(), Vec::new());
-    for grid in grids {
-        kept.extend(several.keep(grid)?);
+    for (path, grid) in grids {
+        kept.extend(several.keep(path, grid)?);
     }
     Ok(kept)
 }

@@ -179,12 +179,11 @@ impl Measure {
     }
 
     fn of_layer(self, clip: &Clip, (layer, koma_rate): (&Layer, f64)) -> f64 {
-        let per_second = |count: usize| count as f64 * koma_rate / layer.length() as f64;
         match self {
             Self::Drawings => layer.shown().count() as f64,
             Self::DrawingsPerSecond => layer.drawings_per_second(koma_rate),
             Self::Genga => layer.genga() as f64,
-            Self::GengaPerSecond => per_second(layer.genga()),
+            Self::GengaPerSecond => layer.genga_per_second(koma_rate),
             Self::LongestHold => layer.longest_hold() as f64,
             Self::HeldKoma => layer.held_koma() as f64,
             Self::PeakSsd => steps(clip, layer).last().copied().unwrap_or(0.0),

@@ -209,6 +209,7 @@ fn written(
         renumbered: &numbering.drawings,
         notes: export.notes.iter().cloned().chain(numbering.note.clone()).collect(),
         is_own_recipe: false,
+        sources: vec![],
         kept: None,
         tell: &tell,
     };
