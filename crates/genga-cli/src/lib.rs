@@ -37,6 +37,7 @@ mod freeze_args;
 mod headings;
 mod into_args;
 mod kept;
+mod listed;
 mod marked_keys;
 mod numbers;
 mod outcomes;

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use super::failure::Failure;
-use super::kept::{list, shortened_list};
+use super::listed::{list, shortened_list};
 use super::paths::named;
 use genga::edits::Edits;
 use genga::slate::Slate;
