@@ -185,7 +185,7 @@ pub struct LayerKeys {
     /// Keys by frame, found ones at least a koma apart. The clip's ends are not included.
     pub keys: Vec<Key>,
     /// The keys that would be there without corrections, or of the frozen ones. Phases of gaits are among them.
-    pub free: Vec<Key>,
+    pub without_corrections: Vec<Key>,
     /// Walls by frame.
     pub walls: Vec<Wall>,
     /// Rests (止め) from first to last frame, both included. A rest that touches an end of the clip begins or ends there.
@@ -204,8 +204,11 @@ impl LayerKeys {
     /// stay, however near, and so does what a person sets.
     pub fn taken_by(&self, ban: Forbidden, koma: f64) -> impl Iterator<Item = Frame> {
         let is_there = |frame: Frame| self.keys.iter().any(|key| key.frame == frame);
-        let reached =
-            self.free.iter().map(|key| key.frame).filter(move |at| ban.reaches(*at, koma));
+        let reached = self
+            .without_corrections
+            .iter()
+            .map(|key| key.frame)
+            .filter(move |at| ban.reaches(*at, koma));
         reached.filter(move |at| !is_there(*at))
     }
 }

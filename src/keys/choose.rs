@@ -451,9 +451,9 @@ impl Choose {
     ) -> LayerKeys {
         let walks =
             |edits| Walks::new(gaits, Drawable { found: &found.keys, edits, koma: apart, ends });
-        let mut free = found.keys.clone();
+        let mut without_corrections = found.keys.clone();
         let bare = Edits { frozen: edits.frozen.clone(), ..Edits::default() };
-        walks(&bare).lay(&mut free, &found.keys, &bare, apart);
+        walks(&bare).lay(&mut without_corrections, &found.keys, &bare, apart);
         let walks = walks(edits);
         let mut keys = chosen.keys.clone();
         walks.give(&mut keys, edits, apart);
@@ -467,6 +467,6 @@ impl Choose {
         let rests = rest::rest_frames(chords, rests);
         let holds_end = self.at_rests == AtRests::Keys;
         let (walls, gaits) = (walls.to_vec(), walks.into_regular());
-        LayerKeys { keys, free, walls, rests, holds_end, gaits, over_limit }
+        LayerKeys { keys, without_corrections, walls, rests, holds_end, gaits, over_limit }
     }
 }

@@ -69,14 +69,14 @@ pub struct WalkStep {
     /// Whether a correction takes each of these frames away: a person forbids it, moves it or sets a key in its place. The
     /// other phases stay.
     pub taken: Vec<bool>,
-    /// Whether corrections take all of it away, or a person wants no other keys. Then it keeps the keys found in it and gets no phases.
-    pub is_corrected: bool,
+    /// Whether corrections leave none of its phases. Then it keeps the keys found in it.
+    pub has_no_phase: bool,
 }
 
 impl Walk {
-    /// Returns the steps that have their phases, but those that corrections take away.
+    /// Returns the steps that have phases.
     pub fn regular(&self) -> impl Iterator<Item = &WalkStep> {
-        self.steps.iter().filter(|step| !step.is_corrected)
+        self.steps.iter().filter(|step| !step.has_no_phase)
     }
 }
 

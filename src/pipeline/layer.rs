@@ -102,7 +102,8 @@ pub struct LayerBreakdown<'a> {
     pub candidates: &'a Candidates,
     /// Keys and walls.
     pub keys: &'a LayerKeys,
-    /// The keys that corrections apply to: those found without any correction, or the frozen ones.
+    /// The keys that corrections apply to: those found without any correction, or the frozen ones. They have no phases of
+    /// gaits, as [`LayerKeys::without_corrections`] has.
     pub uncorrected: &'a [Key],
     /// Number of requested inbetweens that did not fit.
     pub did_not_fit: usize,

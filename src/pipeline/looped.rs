@@ -315,7 +315,7 @@ impl Round {
             },
             keys: LayerKeys {
                 keys: self.keys(&keys.keys),
-                free: self.keys(&keys.free),
+                without_corrections: self.keys(&keys.without_corrections),
                 walls: walls(&keys.walls),
                 rests: keys.rests.iter().filter_map(rest).collect(),
                 holds_end: false,

@@ -60,7 +60,7 @@ prop_compose! {
             rests: rests.into_iter().map(rest).collect(),
             holds_end: true,
         over_limit: 0,
-            free: Vec::new(),
+            without_corrections: Vec::new(),
         }
     }
 }

@@ -95,7 +95,7 @@ impl Outcomes<'_> {
         let is_meant = |key: &&Key| {
             ban.reaches(key.frame, koma) && (!self.has(key.frame) || self.is_set(key.frame))
         };
-        let reached = self.own.keys.free.iter().filter(is_meant);
+        let reached = self.own.keys.without_corrections.iter().filter(is_meant);
         let reached: Vec<Frame> = reached.map(|key| key.frame).collect();
         let outcomes: Vec<String> = reached.iter().map(|at| self.of_banned(*at)).collect();
         let line = self.line("forbid", ban, &outcomes.join(", "));
@@ -110,7 +110,7 @@ impl Outcomes<'_> {
         }
         match self.instead_of(frame).and_then(|to| Some((to, self.number(to)?))) {
             Some((to, number)) => {
-                let others = self.own.keys.free.iter().map(|key| key.frame);
+                let others = self.own.keys.without_corrections.iter().map(|key| key.frame);
                 let length = self.sheet.length();
                 let none = Forbidden::instead_of(frame, others, &self.clock, length);
                 format!("genga {number} moved from {frame} to {to} (--forbid {none} leaves none)")
@@ -125,11 +125,11 @@ impl Outcomes<'_> {
         self.own.keys.keys.iter().find(is_moved)?;
         let number = self.number(to)?;
         let koma = self.clock.frames_in_koma();
-        let own = frames(&self.own.keys.free).min_by_key(|at| at.0.abs_diff(from.0));
+        let own = frames(&self.own.keys.without_corrections).min_by_key(|at| at.0.abs_diff(from.0));
         let is_gone = |at: &Frame| {
             Some(*at) != own && (at.0.abs_diff(to.0) as f64) < koma && (*at == to || !self.has(*at))
         };
-        let gone: Vec<Frame> = frames(&self.own.keys.free).filter(is_gone).collect();
+        let gone: Vec<Frame> = frames(&self.own.keys.without_corrections).filter(is_gone).collect();
         let passed: Vec<Frame> =
             frames(&self.own.keys.keys).filter(|at| lies_between(*at, from, to)).collect();
         let mut outcome = format!("genga {number}");
@@ -168,7 +168,7 @@ impl Outcomes<'_> {
 
     /// Whether a key was at a frame before the corrections.
     fn is_found(&self, frame: Frame) -> bool {
-        self.own.keys.free.iter().any(|key| key.frame == frame)
+        self.own.keys.without_corrections.iter().any(|key| key.frame == frame)
     }
 
     /// The keys next to a frame, of those that are there with and without corrections.
@@ -181,7 +181,7 @@ impl Outcomes<'_> {
 
     /// Keys that are gone since the corrections.
     fn lost(&self) -> impl Iterator<Item = Frame> {
-        self.own.keys.free.iter().map(|key| key.frame).filter(|at| !self.has(*at))
+        self.own.keys.without_corrections.iter().map(|key| key.frame).filter(|at| !self.has(*at))
     }
 
     /// Whether a key was moved away from a frame.

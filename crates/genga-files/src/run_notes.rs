@@ -161,7 +161,7 @@ pub fn idle(edits: &Edits, breakdown: &Breakdown<'_>) -> Vec<String> {
 
 /// Whether the forbidden frames removed a key, or may have moved the search for one.
 fn has_an_effect(frames: Forbidden, own: &LayerBreakdown<'_>, koma: f64) -> bool {
-    let found = &own.keys.free;
+    let found = &own.keys.without_corrections;
     if found.iter().any(|key| frames.reaches(key.frame, koma)) {
         return true;
     }

@@ -30,7 +30,7 @@ impl Drawable<'_> {
             let to = from + instants.len();
             step.frames = frames[from..=to].to_vec();
             step.taken = taken[from..=to].to_vec();
-            step.is_corrected = self.corrects(step);
+            step.has_no_phase = self.has_no_phase(step);
             from = to;
         }
     }
@@ -64,7 +64,7 @@ impl Drawable<'_> {
     }
 
     /// Whether no phase of a step is left. Such a step keeps the keys found in it.
-    fn corrects(&self, step: &WalkStep) -> bool {
+    fn has_no_phase(&self, step: &WalkStep) -> bool {
         let Edits { frozen, only_pins, .. } = self.edits;
         let is_taken = step.frames.iter().any(Option::is_some) && step.shown().next().is_none();
         // Next to the clip's ends, a sheet has no room for a genga.

@@ -20,7 +20,7 @@ pub(super) fn walk(gait: &Gait) -> (Walk, Instants) {
     };
     let step = |step: &Step| {
         let Step { contact, next, .. } = *step;
-        WalkStep { contact, next, frames: vec![], taken: vec![], is_corrected: false }
+        WalkStep { contact, next, frames: vec![], taken: vec![], has_no_phase: false }
     };
     let walk = Walk {
         shares: (0..phasing.phases.len()).map(usual_share).collect(),

@@ -131,7 +131,7 @@ fn a_step_that_shows_nothing_of_the_clip_takes_no_key() {
         next: 108.0,
         frames: vec![None; 5],
         taken: vec![false; 5],
-        is_corrected: false,
+        has_no_phase: false,
     };
     assert!(!step.covers(Frame(0), KOMA));
     let begun = WalkStep { frames: vec![None, None, None, None, Some(Frame(40))], ..step };

@@ -141,7 +141,7 @@ impl Placing {
         (length, is_one): (usize, impl Fn(&Range<usize>) -> bool),
         steps: &mut Steps,
     ) {
-        if step.is_corrected {
+        if step.has_no_phase {
             return;
         }
         let on_sheet = |koma: isize| usize::try_from(koma).ok().filter(|koma| *koma < length);

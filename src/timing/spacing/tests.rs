@@ -29,7 +29,7 @@ fn layer(keys: &[usize], walls: &[usize]) -> LayerKeys {
         rests: Vec::new(),
         holds_end: true,
         over_limit: 0,
-        free: vec![],
+        without_corrections: vec![],
     }
 }
 

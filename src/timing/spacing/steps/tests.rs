@@ -45,7 +45,7 @@ fn steps_are_equally_long_while_their_contacts_stay_within_a_koma() {
         let step = |length: &f64| {
             let contact = at;
             at += length;
-            WalkStep { contact, next: at, frames: vec![], taken: vec![], is_corrected: false }
+            WalkStep { contact, next: at, frames: vec![], taken: vec![], has_no_phase: false }
         };
         let steps = lengths.iter().map(step).collect();
         Walk { phases: vec![Phase::Contact], shares: vec![0.0], koma: 12.9, steps }
@@ -79,7 +79,7 @@ fn a_gait_begins_on_the_koma_on_which_the_one_before_ends() {
                 next: contact + koma,
                 frames: vec![],
                 taken: vec![],
-                is_corrected: false,
+                has_no_phase: false,
             }
         };
         Walk {
