@@ -64,7 +64,7 @@ pub use rest::AtRests;
 pub(crate) use rest::{rest_frames, rests};
 pub(crate) use selection::{Choice, Picked};
 pub use voters::weights;
-pub use walk::{AtGaits, Phase, Walk, WalkStep};
+pub use walk::{AtGaits, Phase, Taken, Walk, WalkStep};
 pub use weights::JointWeights;
 
 /// A key (原画) of a layer.

@@ -66,11 +66,19 @@ pub struct WalkStep {
     pub next: f64,
     /// Frame that shows each phase and, last, the next contact; `None` if it lies outside the clip.
     pub frames: Vec<Option<Frame>>,
-    /// Whether a correction takes each of these frames away: a person forbids it, moves it or sets a key in its place. The
-    /// other phases stay.
-    pub taken: Vec<bool>,
+    /// What becomes of each of these frames, if a correction takes it away. The other phases stay.
+    pub taken: Vec<Option<Taken>>,
     /// Whether corrections leave none of its phases. Then it keeps the keys found in it.
     pub has_no_phase: bool,
+}
+
+/// What becomes of a phase that a correction takes away.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Taken {
+    /// A person forbids it, moves it away, or sets a key near it: an inbetween takes its place.
+    Gone,
+    /// A person sets a key at this frame, within a koma of it: that takes its place and its koma.
+    By(Frame),
 }
 
 impl Walk {
@@ -183,7 +191,7 @@ impl WalkStep {
     /// Returns the frames that genga show.
     fn shown(&self) -> impl Iterator<Item = Frame> {
         let frames = self.frames.iter().zip(&self.taken);
-        frames.filter_map(|(frame, is_taken)| frame.filter(|_| !is_taken))
+        frames.filter_map(|(frame, taken)| frame.filter(|_| taken.is_none()))
     }
 
     /// Whether a frame is in the step, or nearer to it than `near` frames.

@@ -8,10 +8,12 @@ use super::laid::{ROUNDS, Round};
 use super::layer::LayerBreakdown;
 use crate::edits::{CameraCue, Edits, Speech};
 use crate::error::Error;
-use crate::keys::{Actions, BodyTurns, Candidate, Candidates, Key, LayerKeys, Origin, Walk, Wall};
+use crate::keys::{
+    Actions, BodyTurns, Candidate, Candidates, Key, LayerKeys, Origin, Taken, Walk, Wall,
+};
 use crate::motion::{Clip, middle_round};
 use crate::recipe::Recipe;
-use crate::sheet::{CameraWork, Drawing, Exposure, Layer, Role, Sheet, Source, SpokenLine};
+use crate::sheet::{CameraWork, Exposure, Layer, Role, Sheet, Source, SpokenLine};
 use crate::signal::{Signals, Turn};
 use crate::time::{Clock, Frame};
 use crate::timing::{Gone, OmissionReport, StageReport};
@@ -209,8 +211,12 @@ impl Round {
             let at = if (place - again).abs() < 0.5 * self.frames_in_koma() || place > again {
                 0
             } else {
-                let source = self.wrapped_source(drawing.source);
-                column.drawings.push(Drawing { source, ..drawing.clone() });
+                let mut drawing = drawing.clone();
+                drawing.source = self.wrapped_source(drawing.source);
+                if let Some(from) = &mut drawing.why.moved_from {
+                    *from = self.wrapped(*from as f64).round() as usize;
+                }
+                column.drawings.push(drawing);
                 column.drawings.len() - 1
             };
             column.exposures.push(Exposure { drawing: at, koma: to - from });
@@ -356,7 +362,11 @@ impl Round {
         own.steps.retain(|step| (koma..2.0 * koma).contains(&(step.contact + 0.5)));
         for step in &mut own.steps {
             (step.contact, step.next) = (step.contact - koma, step.next - koma);
-            let frames = step.frames.iter_mut().flatten();
+            let set = step.taken.iter_mut().filter_map(|taken| match taken {
+                Some(Taken::By(set)) => Some(set),
+                _ => None,
+            });
+            let frames = step.frames.iter_mut().flatten().chain(set);
             frames.for_each(|frame| frame.0 = frame.0.saturating_sub(self.repeat.frames));
         }
         (!own.steps.is_empty()).then_some(own)

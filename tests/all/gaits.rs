@@ -250,14 +250,22 @@ fn a_pin_or_a_move_takes_the_phases_near_it_and_leaves_all_others() {
         let check = |edits: &Edits, from: Option<f64>, to: f64| {
             let after = walked(clip.clone(), edits);
             assert_eq!(after.steps.len(), before.steps.len(), "{to}");
-            let is_far = |(_, place): &&(usize, f64)| {
-                (place - to).abs() >= 2.0 * koma && Some(*place) != from
+            let away = |place: f64| (place - to).abs();
+            let nearest = phases.iter().map(|(_, place)| *place);
+            let nearest = nearest.min_by(|a, b| away(*a).total_cmp(&away(*b))).unwrap();
+            // Within a koma of a phase it takes that place, and its koma; else it takes all that are near.
+            let takes = |place: f64| match away(nearest) < koma {
+                true => place == nearest || away(place) < koma,
+                false => away(place) < 2.0 * koma,
             };
+            let is_far = |(_, place): &&(usize, f64)| !takes(*place) && Some(*place) != from;
             let stay: Vec<_> = phases.iter().filter(is_far).collect();
             let now = genga(&after.layer);
             let own: Vec<_> = now.iter().filter(|(_, place)| *place != to).collect();
             assert_eq!(own, stay, "{from:?} {to}");
-            assert!(now.iter().any(|(_, place)| *place == to), "{to}: {now:?}");
+            let (there, _) = now.iter().find(|(_, place)| *place == to).unwrap();
+            let own = phases.iter().find(|(_, place)| *place == nearest && away(nearest) < koma);
+            assert!(own.is_none_or(|(koma, _)| koma == there), "{to}: {now:?}");
         };
         for pair in phases.windows(2) {
             let [from, next] = [pair[0].1, pair[1].1];

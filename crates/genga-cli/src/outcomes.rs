@@ -8,6 +8,9 @@ use genga::sheet::{Drawing, Layer, Number};
 use genga::time::{Clock, Frame};
 use genga::timing::held_for;
 
+/// Furthest that a key gives way to one that a person sets, in koma.
+const NEAR: f64 = 3.0;
+
 /// Most lines; of more, the rest is counted.
 const MOST: usize = 24;
 
@@ -79,7 +82,7 @@ impl Outcomes<'_> {
         let (drawing, number) = self.genga(frame)?;
         let mut timed = self.sheet.timed();
         let koma = timed.find(|(_, shown)| shown.drawing == drawing).map(|(koma, _)| koma);
-        let instead = match (listed(&self.lost_near(frame)), koma) {
+        let instead = match (listed(&self.lost_to(frame)), koma) {
             (_, Some(koma)) if self.is_found(frame) => {
                 format!(", a genga already, on koma {}", self.before + koma + 1)
             }
@@ -124,12 +127,8 @@ impl Outcomes<'_> {
         let is_moved = |key: &&Key| key.origin == Origin::Moved { from };
         self.own.keys.keys.iter().find(is_moved)?;
         let number = self.number(to)?;
-        let koma = self.clock.frames_in_koma();
-        let own = frames(&self.own.keys.without_corrections).min_by_key(|at| at.0.abs_diff(from.0));
-        let is_gone = |at: &Frame| {
-            Some(*at) != own && (at.0.abs_diff(to.0) as f64) < koma && (*at == to || !self.has(*at))
-        };
-        let gone: Vec<Frame> = frames(&self.own.keys.without_corrections).filter(is_gone).collect();
+        let mut gone = self.lost_to(to);
+        gone.extend((self.is_found(to) && from != to).then_some(to));
         let passed: Vec<Frame> =
             frames(&self.own.keys.keys).filter(|at| lies_between(*at, from, to)).collect();
         let mut outcome = format!("genga {number}");
@@ -203,16 +202,21 @@ impl Outcomes<'_> {
             && rests.iter().all(|rest| *rest.start() != frame)
     }
 
-    /// Frames of the keys that went with a pin at a frame, and not because of another correction.
-    fn lost_near(&self, frame: Frame) -> Vec<Frame> {
+    /// Frames of the keys that gave way to the one that a person set at a frame, and not to another correction.
+    fn lost_to(&self, set: Frame) -> Vec<Frame> {
         if self.edits.only_pins {
             return vec![];
         }
         let koma = self.clock.frames_in_koma();
+        let away = |at: Frame, from: Frame| at.0.abs_diff(from.0);
         let is_forbidden = |at: Frame| self.edits.forbidden.iter().any(|ban| ban.reaches(at, koma));
-        let (before, after) = self.between(frame);
-        let is_near = |at: &Frame| before.is_none_or(|b| b < *at) && after.is_none_or(|a| *at < a);
-        let lost = self.lost().filter(|at| is_near(at) && !is_forbidden(*at));
+        let moved = self.edits.moves.iter().map(|moved| moved.to);
+        let sets: Vec<Frame> = self.edits.pins.iter().map(|pin| pin.frame).chain(moved).collect();
+        let is_its = |at: &Frame| {
+            away(*at, set) as f64 <= NEAR * koma
+                && sets.iter().all(|other| away(*at, set) <= away(*at, *other))
+        };
+        let lost = self.lost().filter(|at| is_its(at) && !is_forbidden(*at));
         lost.filter(|at| !self.is_moved(*at) && !self.ends_rest(*at)).collect()
     }
 

@@ -1,7 +1,7 @@
 //! Chooses the frame that shows each phase of a row of steps.
 
 use crate::edits::Edits;
-use crate::keys::walk::{NEAR, WalkStep};
+use crate::keys::walk::{NEAR, Taken, WalkStep};
 use crate::keys::{Key, Origin};
 use crate::time::Frame;
 
@@ -76,30 +76,49 @@ impl Drawable<'_> {
         *only_pins || !was_there || is_taken
     }
 
-    /// Returns whether a correction takes each frame of a row away.
-    fn taken(&self, frames: &[Option<Frame>]) -> Vec<bool> {
+    /// Returns what a correction puts in the place of each frame of a row, if one takes it away.
+    fn taken(&self, frames: &[Option<Frame>]) -> Vec<Option<Taken>> {
         let Edits { pins, moves, forbidden, .. } = self.edits;
-        let mut are_taken = vec![false; frames.len()];
-        let mut take = |away: &dyn Fn(Frame) -> Option<usize>, means_one: bool| {
-            let near = frames.iter().enumerate();
-            let near = near.filter_map(|(at, frame)| Some((at, frame.and_then(away)?)));
-            let nearest = near.clone().min_by_key(|(_, far)| *far).filter(|_| means_one);
-            match nearest {
-                Some((at, _)) => are_taken[at] = true,
-                None => near.for_each(|(at, _)| are_taken[at] = true),
-            }
-        };
-        let within = |place: Frame, frame: Frame, most: f64| {
-            Some(frame.0.abs_diff(place.0)).filter(|far| (*far as f64) < most * self.koma)
-        };
+        let mut taken = vec![None; frames.len()];
         for range in forbidden {
-            let away = |at| range.reaches(at, self.koma).then(|| range.distance(at));
+            let reached = |at: Frame| range.reaches(at, self.koma).then(|| range.distance(at));
+            let near = Near::new(frames, reached);
             // A single frame means the nearest phase alone: they stand as near to each other as it reaches.
-            take(&away, range.is_one());
+            let meant = if range.is_one() { near.nearest().into_iter().collect() } else { near.0 };
+            meant.iter().for_each(|(at, _)| taken[*at] = Some(Taken::Gone));
+        }
+        let within = |place: Frame, most: f64| {
+            move |at: Frame| Some(at.0.abs_diff(place.0)).filter(|far| (*far as f64) < most)
+        };
+        for moved in moves {
+            let near = Near::new(frames, within(moved.from, self.koma));
+            near.nearest().iter().for_each(|(at, _)| taken[*at] = Some(Taken::Gone));
         }
         let set = pins.iter().map(|pin| pin.frame).chain(moves.iter().map(|moved| moved.to));
-        set.for_each(|set| take(&|at| within(set, at, NEAR), false));
-        moves.iter().for_each(|moved| take(&|at| within(moved.from, at, 1.0), true));
-        are_taken
+        for set in set {
+            let own = Near::new(frames, within(set, self.koma));
+            match own.nearest() {
+                Some((own, _)) => taken[own] = Some(Taken::By(set)),
+                None => {
+                    let near = Near::new(frames, within(set, NEAR * self.koma));
+                    near.0.iter().for_each(|(at, _)| taken[*at] = Some(Taken::Gone));
+                }
+            }
+        }
+        taken
+    }
+}
+
+/// Phases near a place: their places in the row, and how many frames they are away.
+struct Near(Vec<(usize, usize)>);
+
+impl Near {
+    fn new(frames: &[Option<Frame>], away: impl Fn(Frame) -> Option<usize>) -> Self {
+        let near = frames.iter().enumerate();
+        Self(near.filter_map(|(at, frame)| Some((at, frame.and_then(&away)?))).collect())
+    }
+
+    fn nearest(&self) -> Option<(usize, usize)> {
+        self.0.iter().copied().min_by_key(|(_, far)| *far)
     }
 }

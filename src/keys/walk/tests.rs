@@ -130,7 +130,7 @@ fn a_step_that_shows_nothing_of_the_clip_takes_no_key() {
         contact: 95.0,
         next: 108.0,
         frames: vec![None; 5],
-        taken: vec![false; 5],
+        taken: vec![None; 5],
         has_no_phase: false,
     };
     assert!(!step.covers(Frame(0), KOMA));

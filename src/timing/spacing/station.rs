@@ -90,7 +90,8 @@ fn on_koma<'a>(
         let earlier = koma_before(clock, place).min(last);
         let begins_earlier = earlier < nearest && least(earlier) > 1;
         let is_free = !key.origin.is_set() || set != Some(earlier);
-        let own = steps.koma(key.frame).filter(|_| key.origin == Origin::Step);
+        let is_phase = key.origin == Origin::Step || key.origin.is_set();
+        let own = steps.koma(key.frame).filter(|_| is_phase);
         let koma = if begins_earlier && is_free { earlier } else { nearest };
         let koma = own.unwrap_or(koma).min(last);
         if key.origin.is_set() {

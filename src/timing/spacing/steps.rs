@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 use super::Spacing;
-use crate::keys::{Phase, Walk, WalkStep};
+use crate::keys::{Phase, Taken, Walk, WalkStep};
 use crate::maths::median;
 use crate::time::Frame;
 use crate::timing::ByPassage;
@@ -152,19 +152,23 @@ impl Placing {
         let mut begins = Vec::new();
         let exposures = self.exposures.of_step((end - begin).max(0) as usize);
         debug_assert!(exposures.len() < step.taken.len() && step.taken.len() == step.frames.len());
-        for (exposure, is_taken) in exposures.into_iter().zip(&step.taken) {
+        for (exposure, taken) in exposures.into_iter().zip(&step.taken) {
             begins.push(at);
             // An inbetween takes the place of a genga that is taken away.
-            for (from, to) in exposure.cuts().skip(usize::from(!is_taken)) {
+            for (from, to) in exposure.cuts().skip(usize::from(*taken != Some(Taken::Gone))) {
                 if let Some(koma) = on_sheet(at + from as isize) {
                     steps.inbetweens.insert(koma, to - from);
                 }
             }
             at += exposure.koma as isize;
         }
-        for (frame, begin) in step.frames.iter().zip(begins.into_iter().chain([end])) {
+        let shown = step.frames.iter().zip(&step.taken).map(|(frame, taken)| match taken {
+            Some(Taken::By(set)) => Some(*set),
+            _ => *frame,
+        });
+        for (frame, begin) in shown.zip(begins.into_iter().chain([end])) {
             if let (Some(frame), Some(koma)) = (frame, on_sheet(begin)) {
-                steps.koma.insert(*frame, koma);
+                steps.koma.insert(frame, koma);
             }
         }
         if is_steady {
