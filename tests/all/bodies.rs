@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::f64::consts::FRAC_PI_2;
+use std::fs;
 
 use genga::edits::Edits;
 use genga::keys::Key;
@@ -16,7 +17,8 @@ use genga_read::Options;
 use glam::{DQuat, DVec3};
 
 use crate::cases::is_full;
-use crate::clips;
+use crate::clips::{self, here};
+use crate::program::Place;
 
 /// The keys of the default recipe.
 fn keys(clip: &Clip) -> Vec<Key> {
@@ -688,4 +690,42 @@ fn what_a_table_of_bones_says_goes_before_names() {
         left_arm(&said),
         ("left arm", "LeftShoulder LeftForeArm LeftHand, as --bones says".into())
     );
+}
+
+/// Bones of a VMD, by name and frame: place and rotation.
+fn bones_of_vmd(bytes: &[u8]) -> Vec<(Vec<u8>, [f32; 7])> {
+    let count = u32::from_le_bytes(bytes[50..54].try_into().unwrap()) as usize;
+    let bone = |record: &[u8]| {
+        let value = |at: usize| f32::from_le_bytes(record[19 + 4 * at..][..4].try_into().unwrap());
+        (record[..19].to_vec(), std::array::from_fn(value))
+    };
+    bytes[54..].chunks_exact(111).take(count).map(bone).collect()
+}
+
+/// A rest along Y under a root that is turned once and for all: programs that count Z as up write such files.
+#[test]
+fn a_body_that_stands_along_another_axis_than_its_rest_stands_in_a_vmd() {
+    let place = Place::new();
+    let kick = fs::read_to_string(here("data/kick.bvh")).unwrap();
+    let (tree, motion) = kick.split_once("MOTION").unwrap();
+    let tree = tree.replacen(
+        "ROOT",
+        "ROOT World\n{\nOFFSET 0 0 0\nCHANNELS 3 Zrotation Xrotation Yrotation\nJOINT",
+        1,
+    );
+    let row =
+        |(at, line): (usize, &str)| if at < 3 { line.into() } else { format!("0 90 0 {line}") };
+    let rows: Vec<String> = motion.lines().enumerate().map(row).collect();
+    fs::write(place.path("turned.bvh"), format!("{tree}}}\nMOTION{}\n", rows.join("\n"))).unwrap();
+    place.done("run data/kick.bvh --deliver vmd --out a");
+    place.done("run turned.bvh --deliver vmd --out b");
+    let [own, turned] = ["a/kick.vmd", "b/turned.vmd"]
+        .map(|file| bones_of_vmd(&fs::read(place.path(file)).unwrap()));
+    assert!(own.len() > 100 && own.len() == turned.len());
+    for ((name, a), (other, b)) in own.iter().zip(&turned) {
+        assert_eq!(name, other);
+        let dot: f32 = a[3..].iter().zip(&b[3..]).map(|(a, b)| a * b).sum();
+        let near = a[..3].iter().zip(&b[..3]).all(|(a, b)| (a - b).abs() < 1e-2);
+        assert!(near && dot.abs() > 0.9999, "{a:?} {b:?}");
+    }
 }

@@ -40,7 +40,7 @@ impl<'a> Capture<'a> {
         Self { clip, model, found, rest, looks: looks(clip) }
     }
 
-    /// The file's up axis, used if the rest pose does not show it.
+    /// The axis that points up as the body stands, or as a person says.
     pub(crate) fn up(&self) -> DVec3 {
         Stature::new(self.clip).up.unit()
     }

@@ -32,8 +32,8 @@ impl Stance {
     /// Computes the stance of a capture for a model whose arms hang `arm_angle` radians below the horizontal.
     pub(crate) fn new(capture: &Capture<'_>, arm_angle: f64) -> Self {
         let upright = upright_rest(capture);
-        // A rest lying on its back occurs only in a Z-up file, never in a Y-up one.
-        let file_up = upright.map_or_else(|| capture.up(), |basis| basis.y_axis);
+        // How the body stands counts, and not the rest, which may stand along another axis.
+        let file_up = capture.up();
         let up = DQuat::from_rotation_arc(file_up, DVec3::Y);
         let turns = match upright {
             Some(basis) => {
