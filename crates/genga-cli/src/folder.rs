@@ -48,6 +48,8 @@ pub(super) struct Left {
     gone: Vec<String>,
     /// Pictures that a person painted on, which this run would have written.
     painted: Vec<String>,
+    /// Such pictures that this run would have drawn otherwise than the run before.
+    outgrown: Vec<String>,
     /// Files of an earlier run that a person changed.
     changed: Vec<String>,
     /// Files of an earlier run that lie behind a link to another folder.
@@ -67,6 +69,10 @@ impl Left {
         };
         let groups = [
             ("painted, kept and not written again (--overwrite NAME does)", self.painted),
+            (
+                "painted, kept, but would be drawn otherwise now (--overwrite NAME does)",
+                self.outgrown,
+            ),
             ("of an earlier run, removed", self.gone),
             (
                 "of an earlier run and not of this sheet, kept because they were changed since",
@@ -154,7 +160,7 @@ impl<'a> Folder<'a> {
     /// removed; those that a person changed stay and are reported, and so do painted pictures.
     pub(super) fn finish(self, mut bundle: Bundle<'_>, made: Made<'_>) -> Result<Left, Failure> {
         self.check_alone()?;
-        let come = bundle.files();
+        let mut come = bundle.files();
         self.over.check(self.path, &come)?;
         let painted: Vec<String> = come
             .iter()
@@ -163,6 +169,12 @@ impl<'a> Folder<'a> {
             .collect();
         self.spare(&come, &painted, made.given)?;
         painted.iter().try_for_each(|name| bundle.leave(name))?;
+        // What was painted on is what was drawn then, until it is drawn anew.
+        let before = |name: &String| self.before.as_ref()?.files.get(name).cloned();
+        let (painted, outgrown): (Vec<_>, Vec<_>) = painted
+            .into_iter()
+            .partition(|name| before(name).is_none_or(|digest| come.get(name) == Some(&digest)));
+        come.extend(outgrown.iter().filter_map(|name| Some((name.clone(), before(name)?))));
         let (stay, rest) = self.others(&come, &made);
         let is_as_written =
             |name: &String| self.digest(name).is_some_and(|digest| self.has(name, &digest));
@@ -189,7 +201,7 @@ impl<'a> Folder<'a> {
         manifest.files = stay.into_iter().chain(come).chain(changed_since).collect();
         bundle.add(Run::MANIFEST, manifest.write()?)?;
         bundle.finish(gone.clone())?;
-        Ok(Left { painted, gone, changed, linked, read, stale })
+        Ok(Left { painted, outgrown, gone, changed, linked, read, stale })
     }
 
     /// Splits the previous run's files that this run does not write into those that stay in the manifest and the names
