@@ -146,6 +146,10 @@ fn settings_stay_in_their_folder_below_those_that_are_given() {
     // What a target found is a setting.
     place.done("run data/kick.bvh --keys 8 --out d");
     assert!(place.said("run data/kick.bvh --out d").contains("原画       8, "));
+    // The settings that another target found are not those that stay.
+    let said = place.said("run data/kick.bvh --keys 10 --out d");
+    let stay = said.lines().find(|line| line.contains("settings as in")).unwrap_or_default();
+    assert!(said.contains("keys.min_price=") && !stay.contains("keys.min_price"), "{said}");
     // A list has spaces, which a shell would part.
     place.done("run data/kick.bvh --within 20..40:spacing.on=1 --out e");
     let said = place.said("run data/kick.bvh --out e");

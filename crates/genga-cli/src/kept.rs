@@ -7,7 +7,6 @@ use super::failure::Failure;
 use super::files;
 use super::listed::{list, shortened_list};
 use super::plan::Plan;
-use super::shell::quoted;
 use genga::edits::Edits;
 use genga::pipeline::Engine;
 use genga::recipe::Recipe;
@@ -28,7 +27,7 @@ pub(super) fn keep(
                 "{failure}; its corrections cannot be kept: --fresh goes without"
             ))
         })?;
-    let stay = plan.stay_on(&settings, &path)?;
+    plan.stay_on(&settings, &path)?;
     let (listed, from) = (list(&before), path.display());
     let usable = usable(before, &plan.recipe, engine)?;
     let has_place = list(&usable);
@@ -48,14 +47,7 @@ pub(super) fn keep(
         (gone, format!("of {from}, replaced")),
     ];
     let said = said.into_iter().filter(|(which, _)| !which.is_empty());
-    let mut said: Vec<_> =
-        said.map(|(which, what)| format!("{what}: {}", shortened_list(which))).collect();
-    if !stay.is_empty() {
-        let option = |(name, word)| format!("--set {}", quoted(&format!("{name}={word}")));
-        let options: Vec<_> = stay.into_iter().map(option).collect();
-        said.push(format!("settings as in {from} (--fresh goes without): {}", options.join(" ")));
-    }
-    Ok(said)
+    Ok(said.map(|(which, what)| format!("{what}: {}", shortened_list(which))).collect())
 }
 
 /// Says which corrections of the previous run in a folder a recipe with others leaves out.

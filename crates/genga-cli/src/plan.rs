@@ -9,6 +9,7 @@ use super::console::Words;
 use super::corrections::Corrections;
 use super::failure::Failure;
 use super::paths::named;
+use super::shell::quoted;
 use super::{camera_args, files, freeze_args, pin_args, sheets, whose_corrections};
 use genga::edits::Edits;
 use genga::error::{Error, Warning};
@@ -90,7 +91,8 @@ pub(super) struct Plan<'a> {
     pub(super) read: Edits,
     /// Names of the settings that the recipe changes, without those of the command line.
     set: Vec<String>,
-    /// The recipe of an earlier run in the folder, if settings of it stay.
+    /// Settings that stay from an earlier run and are not the default ones, and the recipe that has them.
+    stay: Vec<(String, String)>,
     stay_from: Option<String>,
 }
 
@@ -134,6 +136,7 @@ impl<'a> Plan<'a> {
             is_corrected: true,
             read: Edits::default(),
             set: vec![],
+            stay: vec![],
             stay_from: None,
         }
     }
@@ -145,7 +148,8 @@ impl<'a> Plan<'a> {
         let (set, of_recipe) = (args.corrections.settings.changed(&read.0), read.1.clone());
         let (recipe, edits) = args.corrections.put_over(read)?;
         let is_corrected = !of_recipe.is_empty();
-        Ok(Self { args, recipe, edits, is_corrected, read: of_recipe, set, stay_from: None })
+        let (stay, stay_from) = (vec![], None);
+        Ok(Self { args, recipe, edits, is_corrected, read: of_recipe, set, stay, stay_from })
     }
 
     /// Returns a function that adds a file's path to an error: that of the recipe if the fault is in it, else the
@@ -193,15 +197,11 @@ impl<'a> Plan<'a> {
     }
 
     /// Lays the settings of the command line over those of an earlier run, whose recipe is `from`, unless a recipe is
-    /// named. Returns those that stay and are not the default ones.
-    pub(super) fn stay_on(
-        &mut self,
-        earlier: &Recipe,
-        from: &Path,
-    ) -> Result<Vec<(String, String)>, Failure> {
+    /// named.
+    pub(super) fn stay_on(&mut self, earlier: &Recipe, from: &Path) -> Result<(), Failure> {
         let corrections = &self.args.corrections;
         if corrections.settings.recipe.is_some() {
-            return Ok(vec![]);
+            return Ok(());
         }
         let seen_from = self.recipe.seen_from;
         (self.recipe, self.edits) =
@@ -211,9 +211,21 @@ impl<'a> Plan<'a> {
         }
         let [usual, now] = [&Recipe::default(), &self.recipe].map(Recipe::settings);
         let stays = |own: &(String, String)| !usual.contains(own) && now.contains(own);
-        let stay: Vec<_> = earlier.settings().into_iter().filter(stays).collect();
-        self.stay_from = (!stay.is_empty()).then(|| from.display().to_string());
-        Ok(stay)
+        self.stay = earlier.settings().into_iter().filter(stays).collect();
+        self.stay_from = (!self.stay.is_empty()).then(|| from.display().to_string());
+        Ok(())
+    }
+
+    /// Says which settings stay from an earlier run, as options for a shell; without those for which a target found
+    /// others.
+    pub(super) fn said_to_stay(&self) -> Option<String> {
+        let now = self.recipe.settings();
+        let options = self.stay.iter().filter(|own| now.contains(own));
+        let options =
+            options.map(|(name, word)| format!("--set {}", quoted(&format!("{name}={word}"))));
+        let options: Vec<_> = options.collect();
+        let from = self.stay_from.as_deref().filter(|_| !options.is_empty())?;
+        Some(format!("settings as in {from} (--fresh goes without): {}", options.join(" ")))
     }
 
     /// Returns the corrections over those of an earlier run. A number of keys that is asked for now overrules switches

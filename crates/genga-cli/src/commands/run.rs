@@ -118,6 +118,7 @@ pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
     notes.extend(run_notes::of_cycle(engine.clip(), plan.recipe.r#loop));
     working.on("finding the key drawings");
     plan.settle(&mut engine, words, &mut |note| notes.push(note))?;
+    let settings_stay = plan.said_to_stay();
     let (Plan { recipe, edits, .. }, fault) = (&plan, plan.fault_of(&engine));
     let breakdown = engine.run_once(recipe, edits).map_err(fault)?;
     let numbering = match args.fresh {
@@ -150,6 +151,7 @@ pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
     kept_formats
         .iter()
         .chain(&kept_corrections)
+        .chain(&settings_stay)
         .for_each(|line| words.say(format_args!("note        {line}")));
     outcomes::of_corrections(edits, &breakdown)
         .iter()
