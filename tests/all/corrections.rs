@@ -146,10 +146,6 @@ fn settings_stay_in_their_folder_below_those_that_are_given() {
     // What a target found is a setting.
     place.done("run data/kick.bvh --keys 8 --out d");
     assert!(place.said("run data/kick.bvh --out d").contains("原画       8, "));
-    // The settings that another target found are not those that stay.
-    let said = place.said("run data/kick.bvh --keys 10 --out d");
-    let stay = said.lines().find(|line| line.contains("settings as in")).unwrap_or_default();
-    assert!(said.contains("keys.min_price=") && !stay.contains("keys.min_price"), "{said}");
     // A list has spaces, which a shell would part.
     place.done("run data/kick.bvh --within 20..40:spacing.on=1 --out e");
     let said = place.said("run data/kick.bvh --out e");
@@ -157,6 +153,35 @@ fn settings_stay_in_their_folder_below_those_that_are_given() {
         said.contains(" --set \"passages=[{ frames = [20, 40], spacing.on = 1 }]\"\n"),
         "{said}"
     );
+}
+
+#[test]
+fn a_target_finds_in_its_folder_what_it_finds_in_a_new_one() {
+    let place = Place::new();
+    let recipe = |folder: &str| fs::read_to_string(place.path(folder).join("recipe.toml")).unwrap();
+    let targets = ["--drawings-per-second 6", "--keys 8", "--max-error 4%", "--keys 14"];
+    for target in targets {
+        let given = "--set filter.width=0.2s --pin 42";
+        let before = place.path("a/recipe.toml").exists();
+        let said = place.said(&format!("run data/kick.bvh {given} {target} --out a"));
+        let stay = said.lines().find(|line| line.contains("settings as in")).unwrap_or_default();
+        assert!(!stay.contains("keys."), "{said}");
+        assert_eq!(
+            said.contains("not as in a/recipe.toml, where a target had found"),
+            before,
+            "{said}"
+        );
+        // What was found stays while none is asked for.
+        place.done("run data/kick.bvh --out a");
+        place.done(&format!("run data/kick.bvh {given} {target} --fresh --out b"));
+        assert_eq!(recipe("a"), recipe("b"), "{target}");
+    }
+    // A person's word counts, also after a target.
+    place.done("run data/kick.bvh --set keys.min_price=2 --out a");
+    place.done("run data/kick.bvh --drawings-per-second 6 --out a");
+    let one = "--set filter.width=0.2s --set keys.min_price=2 --pin 42 --drawings-per-second 6";
+    place.done(&format!("run data/kick.bvh {one} --fresh --out b"));
+    assert_eq!(recipe("a"), recipe("b"));
 }
 
 #[test]

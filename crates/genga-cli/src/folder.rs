@@ -8,6 +8,7 @@ use std::path::Path;
 
 use super::failure::Failure;
 use super::format_args::{Overwrites, shortened};
+use super::found_settings::Found;
 use super::paths;
 use super::staging::{self, Bundle};
 use genga_files::{ClipMark, Format, Manifest, Run};
@@ -32,6 +33,8 @@ pub(super) struct Made<'a> {
     pub(super) formats: Vec<&'static str>,
     /// Their settings that differ from the defaults.
     pub(super) settings: BTreeMap<String, String>,
+    /// Settings of the recipe that targets found.
+    pub(super) found: Found,
     /// Numbered files left over from a longer sheet.
     pub(super) stale: Vec<String>,
     /// Whether all other files of the previous run stay.
@@ -146,6 +149,11 @@ impl<'a> Folder<'a> {
         self.of(clip).map(|before| before.settings.clone()).unwrap_or_default()
     }
 
+    /// The settings of the recipe that targets found.
+    pub(super) fn found(&self, clip: &ClipMark) -> Found {
+        self.of(clip).map(|before| before.found.clone()).unwrap_or_default()
+    }
+
     /// The manifest, if the folder holds results of this clip.
     fn of(&self, clip: &ClipMark) -> Option<&Manifest> {
         self.before.as_ref().filter(|before| before.clip.is_of(clip))
@@ -193,6 +201,7 @@ impl<'a> Folder<'a> {
         let mut manifest = Manifest::new(made.clip);
         manifest.formats = formats.into_iter().map(str::to_owned).collect();
         manifest.settings = made.settings;
+        manifest.found = made.found;
         manifest.recipe = recipe;
         // What a person changed, or the run reads, is listed as it was written, so that the next run tells of it again.
         let digest =

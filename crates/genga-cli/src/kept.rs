@@ -5,6 +5,7 @@ use std::path::Path;
 
 use super::failure::Failure;
 use super::files;
+use super::found_settings::Found;
 use super::listed::{list, shortened_list};
 use super::plan::Plan;
 use genga::edits::Edits;
@@ -12,11 +13,11 @@ use genga::pipeline::Engine;
 use genga::recipe::Recipe;
 use genga_files::Run;
 
-/// Lays a run's settings and corrections over those of the previous run in the same folder. Returns notes on what was kept
-/// and dropped.
+/// Lays a run's settings and corrections over those of the previous run in the same folder, of whose settings targets found
+/// some. Returns notes on what was kept and dropped.
 pub(super) fn keep(
     plan: &mut Plan<'_>,
-    folder: &Path,
+    (folder, found): (&Path, &Found),
     engine: &Engine,
 ) -> Result<Vec<String>, Failure> {
     let path = folder.join(Run::RECIPE);
@@ -27,7 +28,7 @@ pub(super) fn keep(
                 "{failure}; its corrections cannot be kept: --fresh goes without"
             ))
         })?;
-    plan.stay_on(&settings, &path)?;
+    plan.stay_on(&settings, found, &path)?;
     let (listed, from) = (list(&before), path.display());
     let usable = usable(before, &plan.recipe, engine)?;
     let has_place = list(&usable);

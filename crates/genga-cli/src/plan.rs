@@ -7,15 +7,16 @@ use clap::Args;
 use super::clip::ClipArgs;
 use super::console::Words;
 use super::corrections::Corrections;
+use super::earlier_settings::EarlierSettings;
 use super::failure::Failure;
+use super::found_settings::{self, Found};
 use super::paths::named;
-use super::shell::quoted;
 use super::{camera_args, files, freeze_args, pin_args, sheets, whose_corrections};
 use genga::edits::Edits;
 use genga::error::{Error, Warning};
 use genga::motion::Description;
 use genga::pipeline::Engine;
-use genga::recipe::{KNOBS, Recipe};
+use genga::recipe::Recipe;
 use genga::sheet::Sheet;
 use genga::target::{self, Met, Target};
 use genga_files::ClipMark;
@@ -85,15 +86,14 @@ pub(super) struct Plan<'a> {
     args: &'a PlanArgs,
     pub(super) recipe: Recipe,
     pub(super) edits: Edits,
-    /// Whether the recipe that was read has corrections, without those of the command line.
-    pub(super) is_corrected: bool,
-    /// Those corrections.
+    /// The corrections of the recipe that was read, without those of the command line.
     pub(super) read: Edits,
     /// Names of the settings that the recipe changes, without those of the command line.
     set: Vec<String>,
-    /// Settings that stay from an earlier run and are not the default ones, and the recipe that has them.
-    stay: Vec<(String, String)>,
-    stay_from: Option<String>,
+    /// Settings that stay from an earlier run.
+    pub(super) earlier: EarlierSettings,
+    /// Settings that the targets of this run found.
+    pub(super) found: Found,
 }
 
 impl PlanArgs {
@@ -129,16 +129,8 @@ impl PlanArgs {
 impl<'a> Plan<'a> {
     /// Builds a plan from a recipe and corrections already read.
     pub(super) fn with(args: &'a PlanArgs, recipe: Recipe, edits: Edits) -> Self {
-        Self {
-            args,
-            recipe,
-            edits,
-            is_corrected: true,
-            read: Edits::default(),
-            set: vec![],
-            stay: vec![],
-            stay_from: None,
-        }
+        let (earlier, found) = Default::default();
+        Self { args, recipe, edits, read: Edits::default(), set: vec![], earlier, found }
     }
 
     /// Reads the recipe, and refuses what is impossible whatever the motion is.
@@ -147,9 +139,8 @@ impl<'a> Plan<'a> {
         let read = args.corrections.settings.read(Recipe::default())?;
         let (set, of_recipe) = (args.corrections.settings.changed(&read.0), read.1.clone());
         let (recipe, edits) = args.corrections.put_over(read)?;
-        let is_corrected = !of_recipe.is_empty();
-        let (stay, stay_from) = (vec![], None);
-        Ok(Self { args, recipe, edits, is_corrected, read: of_recipe, set, stay, stay_from })
+        let (earlier, found) = Default::default();
+        Ok(Self { args, recipe, edits, read: of_recipe, set, earlier, found })
     }
 
     /// Returns a function that adds a file's path to an error: that of the recipe if the fault is in it, else the
@@ -160,7 +151,7 @@ impl<'a> Plan<'a> {
         let wrong = wrong.map(|error| error.to_string());
         let is_corrected_there = !self.read.is_empty() && self.edits == self.read;
         let (path, set) = (self.args.clip.path.clone(), self.set.clone());
-        let stay_from = self.stay_from.clone();
+        let earlier = self.earlier.clone();
         move |error| {
             let is_there = match &error {
                 Error::Edits { .. } => is_corrected_there || wrong == Some(error.to_string()),
@@ -171,7 +162,7 @@ impl<'a> Plan<'a> {
                 Some(recipe) => {
                     Failure::AskedWrongly(format!("{}: {error}", named(recipe).display()))
                 }
-                None => among_settings_that_stay(stay_from.as_deref(), error, &path),
+                None => earlier.fault_among(error, &path),
             }
         }
     }
@@ -197,35 +188,29 @@ impl<'a> Plan<'a> {
     }
 
     /// Lays the settings of the command line over those of an earlier run, whose recipe is `from`, unless a recipe is
-    /// named.
-    pub(super) fn stay_on(&mut self, earlier: &Recipe, from: &Path) -> Result<(), Failure> {
+    /// named. A target begins without the settings that one before it found.
+    pub(super) fn stay_on(
+        &mut self,
+        earlier: &Recipe,
+        found: &Found,
+        from: &Path,
+    ) -> Result<(), Failure> {
         let corrections = &self.args.corrections;
         if corrections.settings.recipe.is_some() {
             return Ok(());
         }
+        let start = match self.args.targets.targets().is_empty() {
+            true => earlier.clone(),
+            false => found_settings::taken_back(earlier, found)?,
+        };
         let seen_from = self.recipe.seen_from;
         (self.recipe, self.edits) =
-            corrections.put_over(corrections.settings.read(earlier.clone())?)?;
+            corrections.put_over(corrections.settings.read(start.clone())?)?;
         if camera_args::is_asked(&corrections.seen) {
             self.recipe.seen_from = seen_from;
         }
-        let [usual, now] = [&Recipe::default(), &self.recipe].map(Recipe::settings);
-        let stays = |own: &(String, String)| !usual.contains(own) && now.contains(own);
-        self.stay = earlier.settings().into_iter().filter(stays).collect();
-        self.stay_from = (!self.stay.is_empty()).then(|| from.display().to_string());
+        self.earlier = EarlierSettings::new(from, earlier, &start, &self.recipe);
         Ok(())
-    }
-
-    /// Says which settings stay from an earlier run, as options for a shell; without those for which a target found
-    /// others.
-    pub(super) fn said_to_stay(&self) -> Option<String> {
-        let now = self.recipe.settings();
-        let options = self.stay.iter().filter(|own| now.contains(own));
-        let options =
-            options.map(|(name, word)| format!("--set {}", quoted(&format!("{name}={word}"))));
-        let options: Vec<_> = options.collect();
-        let from = self.stay_from.as_deref().filter(|_| !options.is_empty())?;
-        Some(format!("settings as in {from} (--fresh goes without): {}", options.join(" ")))
     }
 
     /// Returns the corrections over those of an earlier run. A number of keys that is asked for now overrules switches
@@ -246,7 +231,7 @@ impl<'a> Plan<'a> {
         note: &mut dyn FnMut(String),
     ) -> Result<(), Failure> {
         let fault = self.fault_of(engine);
-        let Self { args, recipe, edits, .. } = self;
+        let Self { args, recipe, edits, found, .. } = self;
         freeze_args::freeze(&args.corrections, engine, recipe, edits)?
             .into_iter()
             .for_each(&mut *note);
@@ -255,6 +240,7 @@ impl<'a> Plan<'a> {
             Some(file) => args.pin_marked(file, engine, (recipe, edits), (&fault, note))?,
         };
         args.tell(&met, recipe, words)?.into_iter().for_each(&mut *note);
+        *found = found_settings::between(recipe, &met.recipe)?;
         *recipe = met.recipe;
         recipe.doubts(engine.clip()).into_iter().for_each(note);
         Ok(())
@@ -316,7 +302,9 @@ impl PlanArgs {
         if met.outcomes.is_empty() {
             return Ok(vec![]);
         }
-        let changed = changes(recipe, &met.recipe)?.join(" ");
+        let changed = found_settings::between(recipe, &met.recipe)?;
+        let changed = changed.iter().map(|(name, [_, is])| format!("{name}={is}"));
+        let changed = changed.collect::<Vec<_>>().join(" ");
         let settings = if changed.is_empty() { "nothing to change" } else { &changed };
         match furthest_off(met) {
             Some(error) => {
@@ -370,16 +358,6 @@ fn furthest_off(met: &Met) -> Option<f64> {
     of_error.map(|outcome| outcome.reached)
 }
 
-/// Adds to the error of a setting where other settings come from that nobody gave now, or the clip's path to another.
-fn among_settings_that_stay(stay_from: Option<&str>, error: Error, clip: &Path) -> Failure {
-    match (stay_from, error) {
-        (Some(from), error @ Error::Setting { .. }) => Failure::AskedWrongly(format!(
-            "{error}; settings stay from {from}, and --fresh goes without them"
-        )),
-        (_, error) => files::fault_of(clip)(error),
-    }
-}
-
 /// Whether a setting is of a name or of a table of that name.
 fn is_within(setting: &str, name: &str) -> bool {
     setting.strip_prefix(name).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
@@ -388,18 +366,6 @@ fn is_within(setting: &str, name: &str) -> bool {
 /// Makes the sheet.
 fn sheet_of(engine: &mut Engine, recipe: &Recipe, edits: &Edits) -> Result<Sheet, Error> {
     engine.run(recipe, edits).map(|breakdown| breakdown.sheet.clone())
-}
-
-/// Returns the settings that changed, as `KEY=VALUE` for `--set`.
-fn changes(before: &Recipe, after: &Recipe) -> Result<Vec<String>, Error> {
-    let mut changed = Vec::new();
-    for knob in KNOBS {
-        let now = after.get(knob.name)?;
-        if before.get(knob.name)? != now {
-            changed.push(format!("{}={now}", knob.name));
-        }
-    }
-    Ok(changed)
 }
 
 #[cfg(test)]

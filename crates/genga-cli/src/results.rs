@@ -4,6 +4,7 @@ use super::console::is_loss;
 use super::failure::Failure;
 use super::folder::{Folder, Left, Made};
 use super::format_args::{Formats, Tell};
+use super::found_settings::Found;
 use super::staging::Bundle;
 use genga::edits::Edits;
 use genga::error::Warning;
@@ -24,6 +25,8 @@ pub(super) struct Results<'a> {
     pub(super) breakdown: &'a Breakdown<'a>,
     pub(super) recipe: &'a Recipe,
     pub(super) edits: &'a Edits,
+    /// The settings that targets found.
+    pub(super) found: Found,
     /// The numbers of the sheet before and of this one; empty if there is nothing to say.
     pub(super) renumbered: &'a [Renumbered],
     /// Notes for the user.
@@ -80,6 +83,7 @@ impl Results<'_> {
             recipe: Some(digest),
             formats: formats.names(),
             settings: formats.own_settings(),
+            found: self.found,
             stale: written.stale,
             adds: false,
             given: self.is_own_recipe.then_some(Run::RECIPE),

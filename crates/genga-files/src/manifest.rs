@@ -31,6 +31,9 @@ pub struct Manifest {
     /// Settings of the formats that differ from their defaults, by name.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub settings: BTreeMap<String, String>,
+    /// Settings of the recipe that a target found, by name: the words before and after the search.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub found: BTreeMap<String, [String; 2]>,
     /// Digests of the files, by name with `/` between folders.
     pub files: BTreeMap<String, String>,
 }
@@ -67,8 +70,16 @@ impl Manifest {
     /// Creates the manifest of a folder in which nothing has been written yet.
     pub fn new(clip: ClipMark) -> Self {
         let genga = env!("CARGO_PKG_VERSION").into();
-        let (formats, settings, files) = (vec![], BTreeMap::new(), BTreeMap::new());
-        Self { schema: SCHEMA.into(), genga, clip, recipe: None, formats, settings, files }
+        Self {
+            schema: SCHEMA.into(),
+            genga,
+            clip,
+            recipe: None,
+            formats: vec![],
+            settings: BTreeMap::new(),
+            found: BTreeMap::new(),
+            files: BTreeMap::new(),
+        }
     }
 
     /// Computes a file's digest as listed in [`files`](Self::files).

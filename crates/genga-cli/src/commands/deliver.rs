@@ -103,12 +103,13 @@ pub(super) fn run(args: &DeliverArgs, words: &Words) -> Result<(), Failure> {
     written.said.notes.iter().for_each(|note| words.warn(note));
     unmade.iter().for_each(|warning| words.lose(warning));
     let (clip, stale) = (motion.of.clone(), written.stale);
-    let there = place.formats(&clip);
+    let (there, found) = (place.formats(&clip), place.found(&clip));
     let made = Made {
         clip,
         recipe: None,
         formats: formats.names(),
         settings: formats.own_settings(),
+        found,
         stale,
         adds: true,
         given: None,

@@ -15,7 +15,7 @@ use crate::format_args::{FormatArgs, FormatName, Formats, all_made, help, long_h
 use crate::numbers::Numbering;
 use crate::plan::{Plan, PlanArgs};
 use crate::results::{OWN, Outcome, Results};
-use crate::{cut_args, files, kept, outcomes, part_of_take, paths, pin_args};
+use crate::{cut_args, files, found_settings, kept, outcomes, part_of_take, paths, pin_args};
 use genga::edits::Edits;
 use genga::pipeline::Breakdown;
 use genga::recipe::Recipe;
@@ -110,15 +110,17 @@ pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
     notes.extend(beside.or(own).and_then(|before| part_of_take::other(before, engine.clip())));
     notes.extend(plan.of_another(&of));
     let is_again = !args.fresh && place.has_run_of(&of);
-    let kept_corrections = match plan.is_corrected {
-        false if is_again => kept::keep(&mut plan, &folder, &engine)?,
-        true if is_again => kept::left_out(&folder, &plan.edits).into_iter().collect(),
+    let kept_corrections = match plan.read.is_empty() {
+        true if is_again => kept::keep(&mut plan, (&folder, &place.found(&of)), &engine)?,
+        false if is_again => kept::left_out(&folder, &plan.edits).into_iter().collect(),
         _ => vec![],
     };
     notes.extend(run_notes::of_cycle(engine.clip(), plan.recipe.r#loop));
     working.on("finding the key drawings");
     plan.settle(&mut engine, words, &mut |note| notes.push(note))?;
-    let settings_stay = plan.said_to_stay();
+    let settings_stay = plan.earlier.notes(&plan.recipe);
+    let mut found = found_settings::still_in(&plan.recipe, place.found(&of));
+    found.extend(plan.found.clone());
     let (Plan { recipe, edits, .. }, fault) = (&plan, plan.fault_of(&engine));
     let breakdown = engine.run_once(recipe, edits).map_err(fault)?;
     let numbering = match args.fresh {
@@ -137,6 +139,7 @@ pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
         breakdown: &breakdown,
         recipe,
         edits,
+        found,
         renumbered: &numbering.drawings,
         notes,
         is_own_recipe: given(args, &folder).is_some(),

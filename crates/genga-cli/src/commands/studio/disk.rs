@@ -17,7 +17,7 @@ use crate::folder::Folder;
 use crate::format_args::{FormatArgs, Formats, Overwrites};
 use crate::numbers::{self, Numbering};
 use crate::results::{OWN, Outcome, Results};
-use crate::{files, paths};
+use crate::{files, found_settings, paths};
 use genga::error::Error;
 use genga::sheet::Sheet;
 use genga_files::{ClipMark, Run};
@@ -200,12 +200,14 @@ fn written(
     formats.spare_edited(folder)?;
     let place = Folder::look(folder, Overwrites::default());
     let numbering = Numbering::new(export.breakdown.sheet, &place, &clip, false);
+    let found = found_settings::still_in(export.recipe, place.found(&clip));
     let results = Results {
         name: &name,
         clip,
         breakdown: &export.breakdown.with_sheet(&numbering.sheet),
         recipe: export.recipe,
         edits: export.edits,
+        found,
         renumbered: &numbering.drawings,
         notes: export.notes.iter().cloned().chain(numbering.note.clone()).collect(),
         is_own_recipe: false,

@@ -1,0 +1,64 @@
+//! The settings that stay from an earlier run in the same folder (前の設定).
+
+use std::path::Path;
+
+use super::failure::Failure;
+use super::files;
+use super::shell::quoted;
+use genga::error::Error;
+use genga::recipe::Recipe;
+
+/// Settings of an earlier run that differ from the default ones.
+#[derive(Debug, Clone, Default)]
+pub(super) struct EarlierSettings {
+    /// The recipe that has them; empty without an earlier run.
+    from: String,
+    settings: Vec<(String, String)>,
+    /// Those that an earlier target found and that another is to find anew.
+    found: Vec<(String, String)>,
+}
+
+impl EarlierSettings {
+    /// Takes the settings of a recipe that `now` has too. Those that are not in `start`, the recipe with which a target
+    /// begins, are the ones that an earlier target found.
+    pub(super) fn new(from: &Path, earlier: &Recipe, start: &Recipe, now: &Recipe) -> Self {
+        let [usual, start, now] = [&Recipe::default(), start, now].map(Recipe::settings);
+        let settings = earlier.settings().into_iter().filter(|own| !usual.contains(own));
+        let (settings, found): (Vec<_>, Vec<_>) = settings.partition(|own| start.contains(own));
+        let settings = settings.into_iter().filter(|own| now.contains(own)).collect();
+        Self { from: from.display().to_string(), settings, found }
+    }
+
+    /// Says which settings stay and which do not, as options for a shell; without those for which a target found
+    /// others.
+    pub(super) fn notes(&self, now: &Recipe) -> Vec<String> {
+        let (from, now) = (&self.from, now.settings());
+        let stay = self.settings.iter().filter(|own| now.contains(own));
+        let gone = self.found.iter().filter(|own| !now.contains(own));
+        let said = [
+            (options(stay), format!("settings as in {from} (--fresh goes without)")),
+            (options(gone), format!("not as in {from}, where a target had found them")),
+        ];
+        let said = said.into_iter().filter(|(options, _)| !options.is_empty());
+        said.map(|(options, what)| format!("{what}: {options}")).collect()
+    }
+
+    /// Adds to the error of a setting where other settings come from that nobody gave now, or the clip's path to
+    /// another.
+    pub(super) fn fault_among(&self, error: Error, clip: &Path) -> Failure {
+        match error {
+            Error::Setting { .. } if !self.settings.is_empty() => Failure::AskedWrongly(format!(
+                "{error}; settings stay from {}, and --fresh goes without them",
+                self.from
+            )),
+            error => files::fault_of(clip)(error),
+        }
+    }
+}
+
+/// Writes settings as options for a shell.
+fn options<'a>(settings: impl Iterator<Item = &'a (String, String)>) -> String {
+    let options =
+        settings.map(|(name, word)| format!("--set {}", quoted(&format!("{name}={word}"))));
+    options.collect::<Vec<_>>().join(" ")
+}
