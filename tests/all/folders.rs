@@ -84,6 +84,12 @@ fn a_run_that_names_no_format_writes_those_of_its_folder_again() {
     let said = place.said("run data/kick.bvh --keys 8 --out a");
     assert!(said.contains("as the folder has them: bvh-keys ("), "{said}");
     assert!(!place.said("run data/kick.bvh --fresh --out a").contains("as the folder has"));
+    // A marked timesheet is read, and not written over.
+    place.done("run data/kick.bvh --deliver xdts --out d");
+    let said = place.said("run data/kick.bvh --pin-from d/kick_genga_ts.xdts --out d");
+    let told =
+        "xdts is not written again, because this run reads d/kick_genga_ts.xdts; --deliver xdts ";
+    assert!(said.contains(told), "{said}");
     // A format that is read from its own place would be lost.
     place.done("run data/kick.bvh --bvh stepped --out c");
     let said = place.refused(2, "run c/limited.bvh --out c");

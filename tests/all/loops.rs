@@ -54,6 +54,10 @@ fn a_loop_that_stays_from_the_run_before_is_known_as_one() {
     assert!(said.contains(seam), "{said}");
     let said = place.said("run data/tennis.bvh --trim 7..60 --pin 20 --out a");
     assert!(said.contains(seam), "{said}");
+    place.done("run data/swing.bvh --trim 5..29 --loop --out b");
+    let said = place.refused(2, "run data/swing.bvh --pin 20 --out b");
+    assert!(said.contains("the last pose is not the first"), "{said}");
+    assert!(said.contains("--trim 5..29 runs that part again"), "{said}");
 }
 
 /// The looped sheet of a clip with some changed settings.

@@ -345,29 +345,25 @@ impl Formats {
         self
     }
 
-    /// Lays the settings given now over those that the formats of the folder had. Returns what was kept and what cannot
-    /// be, in words.
-    pub(super) fn lay_over(
+    /// Takes those settings that the formats of the folder had and that are not given now. Returns what was kept and what
+    /// cannot be, in words.
+    pub(super) fn keep(
         &mut self,
         before: &BTreeMap<String, String>,
         args: &FormatArgs,
         way_out: &str,
-    ) -> Result<Vec<String>, Failure> {
-        let mut settings = Settings::default();
+    ) -> Vec<String> {
         let before = before.iter().filter(|(name, _)| !args.look.gives(name));
         let (kept, lost): (Vec<_>, Vec<_>) = before.partition(|(name, value)| {
             let is_unread = *name == "vmd.model" && Vmd::is_file(value);
-            !is_unread && settings.set(name, value).is_ok()
+            !is_unread && self.settings.set(name, value).is_ok()
         });
-        args.look.put(&mut settings)?;
-        settings.vmd.map = self.settings.vmd.map.take();
-        self.settings = settings;
         let said = [
             (kept, format!("settings of formats, as the folder has them ({way_out})")),
             (lost, "settings of formats that do not stay; give them again".into()),
         ];
         let said = said.into_iter().filter(|(settings, _)| !settings.is_empty());
-        Ok(said.map(|(settings, what)| format!("{what}: {}", options(&settings))).collect())
+        said.map(|(settings, what)| format!("{what}: {}", options(&settings))).collect()
     }
 
     /// The settings that differ from the defaults, by name.

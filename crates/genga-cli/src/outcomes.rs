@@ -94,12 +94,13 @@ impl Outcomes<'_> {
 
     fn of_ban(&self, ban: Forbidden) -> Option<(Frame, String)> {
         let koma = self.clock.frames_in_koma();
-        // Beside a forbidden phase of a step, others stay.
-        let is_meant = |key: &&Key| {
-            ban.reaches(key.frame, koma) && (!self.has(key.frame) || self.is_set(key.frame))
+        let taken = self.own.keys.taken_by(ban, koma).filter(|at| !self.is_moved(*at));
+        let is_kept = |key: &&Key| {
+            key.origin.is_set() && ban.reaches(key.frame, koma) && self.is_found(key.frame)
         };
-        let reached = self.own.keys.without_corrections.iter().filter(is_meant);
-        let reached: Vec<Frame> = reached.map(|key| key.frame).collect();
+        let kept = self.own.keys.keys.iter().filter(is_kept).map(|key| key.frame);
+        let mut reached: Vec<Frame> = taken.chain(kept).collect();
+        reached.sort_unstable();
         let outcomes: Vec<String> = reached.iter().map(|at| self.of_banned(*at)).collect();
         let line = self.line("forbid", ban, &outcomes.join(", "));
         (!outcomes.is_empty()).then_some((ban.from, line))
@@ -158,11 +159,6 @@ impl Outcomes<'_> {
     /// Whether a key is at a frame now.
     fn has(&self, frame: Frame) -> bool {
         self.own.keys.keys.iter().any(|key| key.frame == frame)
-    }
-
-    /// Whether a person set the key at a frame.
-    fn is_set(&self, frame: Frame) -> bool {
-        self.own.keys.keys.iter().any(|key| key.frame == frame && key.origin.is_set())
     }
 
     /// Whether a key was at a frame before the corrections.

@@ -139,7 +139,8 @@ impl PoseRow {
         self.row(clip, &figure, &frames.iter().map(label).collect::<Vec<_>>(), &poses)
     }
 
-    /// Draws the genga and ends of a sheet as SVG, all layers combined, numbered as in the key table.
+    /// Draws the genga and ends of a sheet as SVG, all layers combined, numbered as in the key table. Of a sheet without
+    /// any, all drawings are drawn.
     ///
     /// # Errors
     /// [`Error::Sheet`] or [`Error::Picture`] if clip and sheet have nothing to show.
@@ -165,7 +166,10 @@ impl PoseRow {
         let composite = composed(clip, sheet)?;
         let mut kept = shown_drawings(composite.layer());
         signs.give(&mut kept);
-        kept.retain(|cell| cell.genga.is_some());
+        // A loop may have no genga at all.
+        if kept.iter().any(|cell| cell.genga.is_some()) {
+            kept.retain(|cell| cell.genga.is_some());
+        }
         let label = |cell: &ShownDrawing<'_>| {
             let (place, words) = (signs.frame(cell.drawing), format!("koma {}", cell.koma + 1));
             let number = cell.genga_sign().map(|number| (number, cell.is_pinned()));

@@ -74,8 +74,7 @@ pub(super) fn run(args: &DeliverArgs, words: &Words) -> Result<(), Failure> {
     let motion = args.reading.read_for((sheet, &file), &args.clip, words)?;
     let place = Folder::look(folder, args.formats.over());
     place.check(&motion.of)?;
-    let said =
-        formats.lay_over(&place.settings(&motion.of), &args.formats, "--with sets others")?;
+    let said = formats.keep(&place.settings(&motion.of), &args.formats, "--with sets others");
     said.iter().for_each(|note| words.say(format_args!("note        {note}")));
     let cut = Cut {
         name: &file.cut,

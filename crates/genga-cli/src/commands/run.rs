@@ -1,5 +1,6 @@
 //! `genga run`: runs the whole chain and writes a folder.
 
+mod again;
 mod passages;
 
 use std::collections::HashSet;
@@ -19,9 +20,7 @@ use crate::{cut_args, files, found_settings, kept, outcomes, part_of_take, paths
 use genga::edits::Edits;
 use genga::pipeline::Breakdown;
 use genga::recipe::Recipe;
-use genga_files::{
-    ClipMark, Cut, Format, GaitReport, LayerReport, LoopReport, Report, Run, run_notes,
-};
+use genga_files::{GaitReport, LayerReport, LoopReport, Report, Run, run_notes};
 
 #[derive(Debug, Args)]
 #[command(after_help = help(), after_long_help = long_help(), disable_help_flag = true, arg = help_flag())]
@@ -70,7 +69,7 @@ const KEPT_WITHOUT: &str = "recipe.toml is the recipe that was given, in your ow
 
 pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
     let mut plan = Plan::from_args(&args.plan)?;
-    let mut formats = Formats::new(
+    let formats = Formats::new(
         "deliver",
         &args.deliver,
         &Run::FORMATS,
@@ -92,22 +91,12 @@ pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
     })?;
     let place = Folder::look(&folder, args.formats.over());
     place.check(&of)?;
-    let again = again(args, &place, &of, &formats);
-    formats = formats.with(&again);
-    let mut kept_formats = match args.fresh {
-        true => vec![],
-        false => formats.lay_over(&place.settings(&of), &args.formats, "--fresh goes without")?,
-    };
-    if !again.is_empty() {
-        let again = again.join(", ");
-        kept_formats.push(format!(
-            "also written, as the folder has them: {again} (--deliver names others)"
-        ));
-    }
+    let (formats, kept_formats) = again::add(formats, args, (&place, &of));
     let recipe = args.plan.corrections.settings.recipe.as_deref().and_then(Path::parent);
     let beside = recipe.filter(|beside| Folder::look(beside, args.formats.over()).is_of(&of));
     let own = place.is_of(&of).then_some(&*folder);
-    notes.extend(beside.or(own).and_then(|before| part_of_take::other(before, engine.clip())));
+    let part = beside.or(own).and_then(|before| part_of_take::other(before, engine.clip()));
+    notes.extend(part.clone());
     notes.extend(plan.of_another(&of));
     let is_again = !args.fresh && place.has_run_of(&of);
     let kept_corrections = match plan.read.is_empty() {
@@ -117,12 +106,14 @@ pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
     };
     notes.extend(run_notes::of_cycle(engine.clip(), plan.recipe.r#loop));
     working.on("finding the key drawings");
-    plan.settle(&mut engine, words, &mut |note| notes.push(note))?;
+    plan.settle(&mut engine, words, &mut |note| notes.push(note))
+        .map_err(|failure| of_part(failure, part.as_deref()))?;
     let settings_stay = plan.earlier.notes(&plan.recipe);
     let mut found = found_settings::still_in(&plan.recipe, place.found(&of));
     found.extend(plan.found.clone());
     let (Plan { recipe, edits, .. }, fault) = (&plan, plan.fault_of(&engine));
-    let breakdown = engine.run_once(recipe, edits).map_err(fault)?;
+    let breakdown =
+        engine.run_once(recipe, edits).map_err(|error| of_part(fault(error), part.as_deref()))?;
     let numbering = match args.fresh {
         true => Numbering::fresh(breakdown.sheet),
         false => Numbering::new(breakdown.sheet, &place, &of, args.renumber),
@@ -168,27 +159,14 @@ pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
     all_made(&unmade)
 }
 
-/// Names of the other formats that the folder has of this clip. A run that names no format writes them again, for their
-/// timing would not be that of the new sheet; but not over a file that it reads.
-fn again(
-    args: &RunArgs,
-    place: &Folder<'_>,
-    clip: &ClipMark,
-    formats: &Formats,
-) -> Vec<&'static str> {
-    if args.fresh || !args.deliver.is_empty() || args.formats.asks_for_bvh() {
-        return vec![];
+/// Adds to a failure that the run is of another part of the take than the one before, which may be its reason.
+fn of_part(failure: Failure, part: Option<&str>) -> Failure {
+    match (failure, part) {
+        (Failure::AskedWrongly(message), Some(part)) => {
+            Failure::AskedWrongly(format!("{message}; {part}"))
+        }
+        (failure, _) => failure,
     }
-    let (folder, cut) = (place.path(), paths::stem(&args.plan.clip.path));
-    let is_read = |file: &&str| {
-        let file = folder.join(Cut::file_of(&cut, file));
-        sources(args).any(|(_, path)| paths::is_same(path, &file))
-    };
-    let may_be_written = |name: &&str| {
-        let format = Format::find(name).ok().filter(|_| !formats.writes(name));
-        format.is_some_and(|format| !format.files.iter().any(&is_read))
-    };
-    place.formats(clip).into_iter().filter(may_be_written).collect()
 }
 
 /// The files that are read, and what each is.
@@ -313,9 +291,9 @@ fn of_layer(layer: &LayerReport) -> String {
 /// Describes the round of a loop in one line.
 fn of_loop(round: &LoopReport) -> String {
     let LoopReport { koma, source_koma, rounds, from_frame } = round;
-    let rounds = counted(*rounds, "round");
+    let (rounds, frame) = (counted(*rounds, "round"), (100.0 * from_frame).round() / 100.0);
     format!(
-        "loop        リピート   {koma} koma a round ({source_koma:.2} in the take), {rounds}; drawing 1 shows frame {from_frame}"
+        "loop        リピート   {koma} koma a round ({source_koma:.2} in the take), {rounds}; drawing 1 shows frame {frame}"
     )
 }
 
