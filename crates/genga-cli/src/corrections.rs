@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use clap::builder::{PathBufValueParser, TypedValueParser};
 
 use super::camera_args::SeenArgs;
 use super::cut_args::CutArgs;
@@ -13,18 +14,24 @@ use genga::edits::{Edits, Forbidden, Hold, Move, Pin, Speech, layer_of};
 use genga::error::Error;
 use genga::recipe::Recipe;
 use genga::time::Frame;
+use genga_files::Run;
 
 /// The recipe: a file, then single settings on top.
 #[derive(Debug, Clone, Args)]
 pub(super) struct Settings {
-    /// Recipe file; see `genga recipe`.
-    #[arg(long, value_name = "R.toml")]
+    /// Recipe file, or a results folder with one; see `genga recipe`.
+    #[arg(long, value_name = "R.toml", value_parser = PathBufValueParser::new().map(recipe_in))]
     pub(super) recipe: Option<PathBuf>,
     /// One setting, over the recipe: --set spacing.on=3 (repeatable).
     ///
     /// B/spacing.on=3 sets it in layer B alone.
     #[arg(long, value_name = "KEY=VALUE", value_parser = assignment)]
     pub(super) set: Vec<(String, String)>,
+}
+
+/// The recipe that a path means: of a results folder it is the one in it.
+fn recipe_in(path: PathBuf) -> PathBuf {
+    if path.is_dir() { path.join(Run::RECIPE) } else { path }
 }
 
 /// The recipe, and a person's corrections.
