@@ -40,6 +40,7 @@ mod headings;
 mod into_args;
 mod kept;
 mod listed;
+mod look_args;
 mod marked_keys;
 mod numbers;
 mod outcomes;

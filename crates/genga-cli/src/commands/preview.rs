@@ -7,7 +7,7 @@ use clap::Args;
 use crate::clip::{OfSheet, Reading, Whole};
 use crate::console::{Words, counted};
 use crate::failure::Failure;
-use crate::format_args::LookArgs;
+use crate::look_args::LookArgs;
 use crate::sheets::{SHEET, near};
 use crate::{files, paths, sheets};
 use genga::error::Error;
