@@ -12,6 +12,7 @@ mod acting; // a nod, a gaze and a fist have keys
 mod actions; // a long take as its actions
 mod batch; // many clips at once
 mod batch_and_a_person; // what a person puts or changes in the folders of a batch
+mod batch_formats; // which formats a batch writes that names none
 mod batch_in_trouble; // lists of other systems, full disks, lost clips, two batches at once
 mod batch_packed; // one archive instead of folders
 mod batch_settings; // which settings make a clip be done again

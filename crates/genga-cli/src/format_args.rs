@@ -315,6 +315,12 @@ impl Formats {
         self.settings.own()
     }
 
+    /// The names that ask for the same formats again, `all` among them if it was.
+    pub(super) fn asked(&self) -> Vec<String> {
+        let all = (self.names() != self.named).then_some("all");
+        all.into_iter().chain(self.named.iter().copied()).map(str::to_owned).collect()
+    }
+
     /// Names of the formats, in the order in which they are written.
     pub(super) fn names(&self) -> Vec<&'static str> {
         self.formats.iter().map(|format| format.name).collect()

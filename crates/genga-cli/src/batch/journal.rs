@@ -1,7 +1,7 @@
 //! The journal of finished clips (作業記録): one line per clip, written when its folder is in place. The next batch reads
 //! it and continues from there.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
@@ -33,10 +33,30 @@ pub(crate) struct Header {
     pub(crate) clips: usize,
     pub(crate) part: usize,
     pub(crate) parts: usize,
+    /// What is written for each clip. The next batch that names no formats writes them again.
+    #[serde(flatten)]
+    pub(crate) written: Written,
+}
+
+/// Formats as they were asked for; of an older journal, none.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub(crate) struct Written {
+    /// Names of formats, `all` among them.
+    #[serde(default)]
+    pub(crate) deliver: Vec<String>,
+    /// Settings of formats that differ from the defaults.
+    #[serde(default)]
+    pub(crate) with: BTreeMap<String, String>,
 }
 
 impl Header {
-    pub(crate) fn new(list: String, asked: String, clips: usize, shard: Shard) -> Self {
+    pub(crate) fn new(
+        list: String,
+        asked: String,
+        clips: usize,
+        shard: Shard,
+        written: Written,
+    ) -> Self {
         let genga = env!("CARGO_PKG_VERSION").into();
         Self {
             schema: SCHEMA.into(),
@@ -46,7 +66,18 @@ impl Header {
             clips,
             part: shard.index,
             parts: shard.count,
+            written,
         }
+    }
+
+    /// What the last batch of this part wrote into a folder.
+    pub(crate) fn written_in(folder: &Path, shard: Shard) -> Written {
+        let path = file(folder, shard.index, shard.count);
+        let mut line = String::new();
+        let read = File::open(path).and_then(|file| BufReader::new(file).read_line(&mut line));
+        let header = read.ok().filter(|_| Self::is_header(&line));
+        let header: Option<Self> = header.and_then(|_| serde_json::from_str(&line).ok());
+        header.map(|header| header.written).unwrap_or_default()
     }
 
     /// Whether a line is the header of a journal.
@@ -56,10 +87,14 @@ impl Header {
 
     /// Path of this part's journal in a folder.
     pub(crate) fn file(&self, folder: &Path) -> PathBuf {
-        match self.parts {
-            1 => folder.join("batch.jsonl"),
-            _ => folder.join(format!("batch-{}-of-{}.jsonl", self.part, self.parts)),
-        }
+        file(folder, self.part, self.parts)
+    }
+}
+
+fn file(folder: &Path, part: usize, parts: usize) -> PathBuf {
+    match parts {
+        1 => folder.join("batch.jsonl"),
+        _ => folder.join(format!("batch-{part}-of-{parts}.jsonl")),
     }
 }
 

@@ -7,7 +7,8 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use clap::{Args, ValueEnum};
 
-use crate::batch::journal::{Header, Journal, check_parts, is_journal};
+use crate::batch::again;
+use crate::batch::journal::{Header, Journal, Written, check_parts, is_journal};
 use crate::batch::left;
 use crate::batch::list::{self, Clips, Item};
 use crate::batch::pack::{self, ARCHIVE, Pack, Parcel};
@@ -41,8 +42,8 @@ pub(super) struct BatchArgs {
     corrections: Corrections,
     #[command(flatten)]
     targets: TargetArgs,
-    /// Formats to write for each clip: --deliver json,xdts, or all.
-    #[arg(long, value_name = "FORMAT,…", value_delimiter = ',', value_parser = FormatName, default_value = "json")]
+    /// Formats to write for each clip: --deliver json,xdts, or all [default: those of the last batch in DIR, or json].
+    #[arg(long, value_name = "FORMAT,…", value_delimiter = ',', value_parser = FormatName)]
     deliver: Vec<String>,
     #[command(flatten)]
     formats: FormatArgs,
@@ -111,13 +112,15 @@ pub(super) fn run(args: &BatchArgs, words: &Words) -> Result<(), Failure> {
     }
     let clip = ClipArgs { path: PathBuf::new(), part: args.part.clone() };
     let bones = clip.part.reading().bones()?;
-    let formats = Formats::new("deliver", &args.deliver, &[], &args.formats, bones.as_ref())?;
+    let before = Header::written_in(&args.out, args.shard.unwrap_or_default());
+    let (formats, notes) = again::formats(&args.deliver, &args.formats, bones.as_ref(), &before)?;
     let plan = PlanArgs::new(clip, args.corrections.clone(), args.targets.clone());
     let asked = Asked::new(&plan, &formats)?;
     let items = clips(args, words)?;
     asked.check(&items)?;
     let batch = Batch::begin(args, &items, &asked, &formats)?;
     batch.state().journal.note().iter().for_each(|note| words.say(note));
+    notes.iter().for_each(|note| words.say(format_args!("note        {note}")));
     batch.work(words)?;
     batch.close(args, words)
 }
@@ -180,7 +183,8 @@ impl<'a> Batch<'a> {
         let list = Manifest::digest(names.join("\n").as_bytes());
         make_folder(&args.out)?;
         let staging = Staging::within(&args.out).map_err(|error| Failure::io(&args.out, error))?;
-        let header = Header::new(list, asked.digest.clone(), items.len(), shard);
+        let written = Written { deliver: formats.asked(), with: formats.own_settings() };
+        let header = Header::new(list, asked.digest.clone(), items.len(), shard, written);
         let journal = Journal::open(&args.out, header, &names)?;
         let pack = args
             .pack
