@@ -111,6 +111,37 @@ fn corrections_of_frames_in_a_recipe_are_of_one_clip() {
     place.done("batch data/kick.bvh data/pitch.bvh --recipe slate/recipe.toml --out c");
 }
 
+#[test]
+fn corrections_of_frames_on_the_command_line_are_of_one_clip() {
+    let place = Place::new();
+    place.done("run data/kick.bvh --out first");
+    for (given, column) in [
+        ("--pin 12,40:hit", "pin"),
+        ("--forbid 50", "forbid"),
+        ("--move 41:42", "move"),
+        ("--hold 42:4", "hold"),
+        ("--split 30", "split"),
+        ("--say 10..20:a", "say"),
+        ("--pin-from first/keys.csv", "pin-from"),
+        ("--freeze first", "freeze"),
+    ] {
+        let said = place.refused(2, &format!("batch data/kick.bvh data/pitch.bvh {given} --out b"));
+        assert!(
+            said.contains(&format!("{given}: is of the frames of one clip, and 2 clips")),
+            "{said}"
+        );
+        assert!(said.contains(&format!("a table with a column {column}")), "{said}");
+        assert!(!place.path("b").exists());
+    }
+    // A clip with a pin of its own does not take that of all; switches and the slate are of every clip.
+    place.done("batch data/kick.bvh data/kick.bvh --pin 42 --out b");
+    let data = crate::clips::here("data").to_string_lossy().into_owned();
+    let table = format!("clip,pin\n{data}/kick.bvh,\n{data}/pitch.bvh,30\n");
+    fs::write(place.path("pins.csv"), table).unwrap();
+    place.done("batch @pins.csv --pin 42 --out c");
+    place.done("batch data/kick.bvh data/pitch.bvh --cut 12 --again --out d");
+}
+
 /// Runs a batch of a table, `data/` in which is the repository's.
 fn of_table(place: &Place, name: &str, table: &str) -> (i32, String) {
     let data = crate::clips::here("data").to_string_lossy().into_owned() + "/";

@@ -206,6 +206,24 @@ impl Corrections {
         ]
     }
 
+    /// Options of the command line that are of the frames of one clip, with their values as they were given.
+    pub(super) fn of_frames(&self) -> Vec<(&'static str, String)> {
+        let file =
+            |path: &Option<PathBuf>| path.iter().map(|path| path.display().to_string()).collect();
+        let splits: Vec<String> = self.split.iter().map(ToString::to_string).collect();
+        let options = [
+            ("pin", self.pin.join(",")),
+            ("forbid", self.forbid.join(",")),
+            ("move", self.moves.join(",")),
+            ("hold", self.holds.join(",")),
+            ("split", splits.join(",")),
+            ("say", self.say.join(" --say ")),
+            ("freeze", file(&self.freeze)),
+            ("pin-from", file(&self.pin_from)),
+        ];
+        options.into_iter().filter(|(_, given)| !given.is_empty()).collect()
+    }
+
     /// Puts those of the command line on top of a recipe and its corrections.
     pub(super) fn put_over(
         &self,

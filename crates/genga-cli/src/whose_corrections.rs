@@ -1,4 +1,4 @@
-//! Corrections in a recipe are of the frames of one clip: several clips are refused them, and another clip's are told.
+//! Corrections are of the frames of one clip: several clips are refused them, and another clip's in a recipe are told.
 
 use std::fs;
 use std::path::Path;
@@ -21,6 +21,17 @@ pub(super) fn check(recipe: &Path, edits: &Edits, clips: usize) -> Result<(), Fa
          out, or name it for its clip alone in a table with a column recipe",
         named(recipe).display(),
         shortened_list(frames)
+    )))
+}
+
+/// Refuses a correction of frames on the command line that would go into several clips.
+pub(super) fn check_given(option: &str, given: &str, clips: usize) -> Result<(), Failure> {
+    if clips < 2 {
+        return Ok(());
+    }
+    Err(Failure::AskedWrongly(format!(
+        "--{option} {given}: is of the frames of one clip, and {clips} clips are to have it; give it to its clip alone in \
+         a table with a column {option} (@table.csv)"
     )))
 }
 

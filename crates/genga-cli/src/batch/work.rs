@@ -53,13 +53,15 @@ impl<'a> Asked<'a> {
         Ok(Self { plan, formats, recipe, edits, read, digest })
     }
 
-    /// Refuses a recipe for all clips whose corrections are of frames.
+    /// Refuses corrections of frames for all clips, in a recipe or on the command line.
     pub(crate) fn check(&self, items: &[Item]) -> Result<(), Failure> {
-        let Some(recipe) = &self.plan.corrections.settings.recipe else { return Ok(()) };
-        let takes_it = |item: &&Item| !item.own.has("recipe");
-        let clips: BTreeSet<&Path> =
-            items.iter().filter(takes_it).map(|item| &*item.path).collect();
-        whose_corrections::check(recipe, &self.read, clips.len())
+        let corrections = &self.plan.corrections;
+        if let Some(recipe) = &corrections.settings.recipe {
+            whose_corrections::check(recipe, &self.read, without(items, "recipe"))?;
+        }
+        corrections.of_frames().iter().try_for_each(|(option, given)| {
+            whose_corrections::check_given(option, given, without(items, option))
+        })
     }
 
     /// Returns the settings of a clip, its own options included, and a digest of all.
@@ -85,6 +87,13 @@ impl<'a> Asked<'a> {
             }
         })
     }
+}
+
+/// Number of clips that have no such option of their own, and so take that of all clips.
+fn without(items: &[Item], option: &str) -> usize {
+    let takes_it = |item: &&Item| !item.own.has(option);
+    let clips: BTreeSet<&Path> = items.iter().filter(takes_it).map(|item| &*item.path).collect();
+    clips.len()
 }
 
 /// Adds command-line words to a plan.
