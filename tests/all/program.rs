@@ -1373,6 +1373,13 @@ fn a_command_line_that_was_not_understood_says_what_to_type() {
         ("inspct kick.bvh", "'inspect'"),
         ("run kick.bvh more.bvh", "of many: genga batch kick.bvh more.bvh --out library"),
         ("run --out o kick.bvh more.bvh", "of many: genga batch kick.bvh more.bvh --out library"),
+        ("split kick.bvh more.bvh", "takes one clip at a time; run genga split for each"),
+        ("-q inspect kick.bvh more.bvh", "takes one clip at a time; run genga inspect for each"),
+        ("eval kick.bvh more.bvh", "run it for each: genga eval SHEET --clip CLIP"),
+        (
+            "eval kick.bvh more.bvh --clip kick.bvh",
+            "takes one sheet at a time, and its motion after --clip",
+        ),
         ("keys kick.bvh more.bvh", "one clip at a time"),
         ("run takes", "such as takes/first.bvh; of all: genga batch takes --out library"),
         (

@@ -42,7 +42,7 @@ fn tip(error: &clap::Error) -> Option<String> {
         }
         ErrorKind::UnknownArgument => {
             let word = word(ContextKind::InvalidArg)?;
-            if Path::new(word).exists() { Some(many(word)) } else { setting_like(word) }
+            if Path::new(word).exists() { Some(one_at_a_time(word)) } else { setting_like(word) }
         }
         _ => None,
     }
@@ -53,6 +53,26 @@ fn setting_like(option: &str) -> Option<String> {
     let last = option.strip_prefix("--")?.replace('-', "_");
     let knob = KNOBS.iter().find(|knob| knob.path().1 == last)?;
     Some(format!("it is a setting: --set {}=VALUE", knob.name))
+}
+
+/// Says what a command takes, and what to do with several, if one file too many is given. A batch does not do what every
+/// command does.
+fn one_at_a_time(other: &str) -> String {
+    let commands = Args::command();
+    let is_command = |word: &String| commands.find_subcommand(word).is_some();
+    let mut words = std::env::args_os().skip(1).map(|word| word.to_string_lossy().into_owned());
+    match words.find(is_command).as_deref() {
+        None | Some("run" | "keys") => many(other),
+        Some("eval") => {
+            "it takes one sheet at a time, and its motion after --clip; run it for each: \
+                         genga eval SHEET --clip CLIP"
+                .into()
+        }
+        Some(command @ ("deliver" | "preview")) => {
+            format!("a sheet stands first, its motion second; run genga {command} for each sheet")
+        }
+        Some(command) => format!("it takes one clip at a time; run genga {command} for each"),
+    }
 }
 
 /// Suggests the `batch` command if several clips are given where one is expected.
