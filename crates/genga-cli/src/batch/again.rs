@@ -32,7 +32,7 @@ pub(crate) fn formats(
         ));
     }
     if is_again {
-        notes.extend(formats.lay_over(&before.with, args, "--deliver goes without")?);
+        notes.extend(formats.keep(&before.with, args, "--deliver goes without"));
     }
     notes.extend(removed(&known, &formats)?);
     Ok((formats, notes))
