@@ -182,12 +182,15 @@ pub fn refusal(error: &io::Error) -> String {
 /// assert_eq!(said, "invalid type: floating point `1.5`, expected a whole number, 0 or more");
 /// ```
 pub fn in_words(message: &str) -> String {
-    const TYPES: [(&str, &str); 5] = [
+    const TYPES: [(&str, &str); 8] = [
         ("usize", "a whole number, 0 or more"),
         ("u64", "a whole number, 0 or more"),
         ("u32", "a whole number, 0 or more"),
         ("i64", "a whole number"),
         ("f64", "a number"),
+        ("struct Pin", "{ frame = 42 }"),
+        ("struct Move", "{ from = 79, to = 81 }"),
+        ("struct Hold", "{ frame = 60, koma = 6 }"),
     ];
     let Some((found, expected)) = message.rsplit_once("expected ") else { return message.into() };
     let words = TYPES.iter().find(|(name, _)| *name == expected);

@@ -1,6 +1,7 @@
 //! Recipe files (ファイル): TOML with a comment for every knob, and a person's corrections beside them.
 
 mod scoped;
+mod unquoted;
 
 use std::collections::BTreeSet;
 use std::ops::Range;
@@ -59,8 +60,11 @@ impl Recipe {
     pub fn overlaid(&self, text: &str) -> Result<(Self, Edits), Error> {
         let not_read = |error| not_read(text, error);
         let mut table = DeTable::parse(text).map_err(not_read)?.into_inner();
-        let edits =
-            table.remove("edits").map(|edits| Edits::deserialize(edits.into_deserializer()));
+        let edits = table.remove("edits");
+        if let Some(date) = edits.as_ref().and_then(unquoted::find_date) {
+            return Err(needs_quotes(text, date, None));
+        }
+        let edits = edits.map(|edits| Edits::deserialize(edits.into_deserializer()));
         let edits = edits.transpose().map_err(not_read)?.unwrap_or_default();
         // Footage is for the studio alone; parsing it here reports its errors all the same.
         take_footage(text, &mut table)?;
@@ -218,11 +222,22 @@ fn line_and_column(text: &str, place: Range<usize>) -> (usize, usize) {
 
 /// Converts an error of the TOML reader, cut to its first line.
 fn not_read(text: &str, error: toml::de::Error) -> Error {
+    let value = error.span().and_then(|place| unquoted::find_unquoted(text, place.start));
+    if let Some(value) = value {
+        return needs_quotes(text, value, Some(error));
+    }
     Error::Recipe {
         place: error.span().map(|place| line_and_column(text, place)),
         message: in_words(error.message().lines().next().unwrap_or_default()),
         source: Some(error.into()),
     }
+}
+
+/// The error for a value that is text without quotes.
+fn needs_quotes(text: &str, value: Range<usize>, error: Option<toml::de::Error>) -> Error {
+    let place = Some(line_and_column(text, value.clone()));
+    let message = unquoted::describe(text, value);
+    Error::Recipe { place, message, source: error.map(Into::into) }
 }
 
 #[cfg(test)]
@@ -350,5 +365,46 @@ mod tests {
             assert!(said.contains(says), "{said}");
         }
         assert!(Recipe::parse("[spacing\n").is_err());
+    }
+
+    #[test]
+    fn a_value_without_quotes_is_told_with_what_genga_writes_there() {
+        let forbidden = "forbidden = [55, \"120..140\"]";
+        let pins = "pins = [{ frame = 42 }]";
+        let moves = "moves = [{ from = 79, to = 81 }]";
+        for (wrong, value, place, writes) in [
+            ("[edits]\nforbidden = [2-3]", "2-3", (2, 14), forbidden),
+            ("[edits]\nforbid = [2-3]", "2-3", (2, 11), forbidden),
+            ("[edits]\nforbidden = [12, 120..]", "120..", (2, 18), forbidden),
+            ("[edits]\nforbidden = [\n  # 1\n  12,\n  ..40 # 2\n]", "..40", (5, 3), forbidden),
+            ("edits.forbidden = [12-30]", "12-30", (1, 20), forbidden),
+            ("[edits]\nforbidden = [2024-01-02]", "2024-01-02", (2, 14), forbidden),
+            ("[edits]\npins = [2-3]", "2-3", (2, 9), pins),
+            ("[edits]\npins = [{ frame = 2-3 }]", "2-3", (2, 19), pins),
+            ("[edits]\npins = [{ frame = 2, name = top }]", "top", (2, 29), pins),
+            ("[edits.layers.B]\npins = [42:top]", "42:top", (2, 9), pins),
+            ("[edits]\nmoves = [12:30]", "12:30", (2, 10), moves),
+            ("[edits]\nmoves = [41:42]", "41:42", (2, 10), moves),
+            ("[spacing]\non = 1-3", "1-3", (2, 6), "\"1-3\""),
+            ("turns.steady = 5%", "5%", (1, 16), "\"5%\""),
+        ] {
+            let error = Recipe::parse(wrong).unwrap_err();
+            let said = error.to_string();
+            let says = format!("{value} is no number, and text needs quotes");
+            assert!(said.contains(&says) && said.ends_with(writes), "{wrong}: {said}");
+            assert_eq!(error.position(), Some(place), "{wrong}");
+        }
+        for (wrong, says) in [
+            ("[edits]\npins = [42]", "expected { frame = 42 }"),
+            ("[edits]\nmoves = [\"41:42\"]", "expected { from = 79, to = 81 }"),
+            ("[edits]\nholds = [4]", "expected { frame = 60, koma = 6 }"),
+            ("[edits]\nforbidden = [07]", "leading zero"),
+            ("[edits]\nspeech = [{ words = \"a, 1-2\\q, b\" }]", "escape"),
+            ("rate = ", "1:8"),
+            ("[spacing", "1:9"),
+        ] {
+            let said = Recipe::parse(wrong).unwrap_err().to_string();
+            assert!(said.contains(says) && !said.contains("needs quotes"), "{wrong}: {said}");
+        }
     }
 }
