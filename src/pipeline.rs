@@ -31,7 +31,7 @@ use breakdown::Shown;
 pub use breakdown::{Breakdown, FoundKeys};
 pub use budget::Budget;
 use joints::JointStages;
-use laid::Laid;
+use laid::{Laid, Round};
 pub use layer::LayerBreakdown;
 use layer::{LayerStages, Measured};
 use looped::{Looped, Rounded};
@@ -406,7 +406,8 @@ impl Engine {
         edits.check_layers(&names)?;
         recipe.scopes.check_on(&names, (laid.first(), laid.last()), recipe)?;
         let clock = laid.clock(recipe.rate);
-        names.iter().try_for_each(|name| one_pin_a_koma(&edits.of_layer(name), clock))?;
+        let round = self.laid.output().round;
+        names.iter().try_for_each(|name| one_pin_a_koma(&edits.of_layer(name), clock, round))?;
         recipe.keys.weights.resolve(self.clip.skeleton())?;
         let count = split.len();
         self.layers.resize_with(count.max(self.layers.len()), LayerStages::default);
@@ -499,8 +500,8 @@ impl Engine {
 }
 
 /// Rejects two pins or moved keys on one koma: a koma shows one drawing, so one of them would be lost, and corrections
-/// must never be lost.
-fn one_pin_a_koma(edits: &Edits, clock: Clock) -> Result<(), Error> {
+/// must never be lost. In a loop the error names frames of the clip, and no koma: its sheet begins with another one.
+fn one_pin_a_koma(edits: &Edits, clock: Clock, round: Option<Round>) -> Result<(), Error> {
     let moved = edits.moves.iter().map(|moved| moved.to);
     let mut frames: Vec<Frame> = edits.pins.iter().map(|pin| pin.frame).chain(moved).collect();
     frames.sort_unstable();
@@ -508,12 +509,19 @@ fn one_pin_a_koma(edits: &Edits, clock: Clock) -> Result<(), Error> {
     match frames.windows(2).find(|pair| koma(pair[0]) == koma(pair[1])) {
         None => Ok(()),
         Some(pair) => {
-            let (a, b, koma) = (pair[0], pair[1], koma(pair[0]) + 1);
+            let mut own = [pair[0], pair[1]]
+                .map(|frame| round.map_or(frame, |round| round.frame_in_clip(frame)));
+            own.sort_unstable();
+            let [a, b] = own;
+            let koma = match round {
+                None => format!(", {}", koma(pair[0]) + 1),
+                Some(_) => String::new(),
+            };
             let message = if a == b {
                 format!("frame {a} is pinned or moved to twice: once is enough")
             } else {
                 format!(
-                    "frames {a} and {b}, pinned or moved to, fall on one koma, {koma}: take one of them away"
+                    "frames {a} and {b}, pinned or moved to, fall on one koma{koma}: take one of them away"
                 )
             };
             Err(Error::Edits { message })

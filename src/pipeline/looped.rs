@@ -46,6 +46,11 @@ impl Round {
         place - self.rounds_before(place) * self.repeat.frames as f64
     }
 
+    /// Returns a frame of any round as one of the clip.
+    pub(super) fn frame_in_clip(&self, frame: Frame) -> Frame {
+        Frame(self.wrapped(frame.0 as f64).round() as usize)
+    }
+
     fn rounds_before(&self, place: f64) -> f64 {
         ((place - self.first.0 as f64) / self.repeat.frames as f64).floor()
     }

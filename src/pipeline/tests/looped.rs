@@ -150,6 +150,28 @@ fn the_body_travels_on_from_round_to_round() {
 }
 
 #[test]
+fn pins_that_meet_at_the_seam_are_told_by_frames_of_the_clip() {
+    let mut engine = engine(0.3);
+    let pins = |frames: [usize; 2]| {
+        let pin = |frame| Pin { frame: Frame(frame), name: None, weight: None };
+        Edits { pins: frames.map(pin).into(), ..Edits::default() }
+    };
+    // At 12 koma a second, a koma has four frames.
+    let recipe = Recipe { rate: 12.0, ..looped() };
+    let mut refused =
+        |edits: &Edits| engine.run(&recipe, edits).err().map(|error| error.to_string());
+    let expected = format!(
+        "edits: frames 1 and {}, pinned or moved to, fall on one koma: take one of them away",
+        ROUND - 1
+    );
+    assert_eq!(refused(&pins([1, ROUND - 1])), Some(expected));
+    let moves = vec![Move::parse(&format!("30:{ROUND}")).unwrap()];
+    let twice = Edits { moves, ..pins([0, 20]) };
+    let expected = "edits: frame 0 is pinned or moved to twice: once is enough";
+    assert_eq!(refused(&twice).as_deref(), Some(expected));
+}
+
+#[test]
 fn what_is_no_loop_is_refused_with_the_way_out() {
     let mut engine = Engine::new(walk(0.3, ROUND / 4 + 1, 0.0)).unwrap();
     let error = engine.run(&looped(), &Edits::default()).err().unwrap().to_string();
