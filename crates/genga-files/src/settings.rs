@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::xdts::{Tdts, Xdts};
 use crate::{Curves, FigureSettings, Glb, Mp4, Remap, Vmd};
-use genga::error::Error;
+use genga::error::{Error, did_you_mean};
 use genga::knob::{Knob, Knobs, knob, knobs};
 use genga_plot::{ContactSheet, FlipBook, NumberedImages, OnionSkin, Preview, Strip, XSheet};
 
@@ -147,7 +147,12 @@ impl Settings {
     }
 
     fn unknown(&self, name: &str) -> Error {
-        let message = format!("there is no such setting; there are {}", self.names().join(", "));
+        let names = self.names();
+        let hint = match did_you_mean(name, names.iter().map(String::as_str)) {
+            none if none.is_empty() => ";".to_owned(),
+            hint => hint,
+        };
+        let message = format!("there is no such setting{hint} there are {}", names.join(", "));
         Error::setting(name, message)
     }
 }
@@ -176,10 +181,16 @@ mod tests {
     #[test]
     fn a_wrong_setting_says_which_there_are() {
         let mut settings = Settings::default();
-        for name in ["bom", "csv", "csv.mob", "xls.bom", "csv.bom.x", ""] {
+        for (name, hint) in [
+            ("bom", "; did you mean csv.bom?"),
+            ("csv.mob", "; did you mean csv.bom?"),
+            ("vmd.fsp", "; did you mean vmd.fps?"),
+            ("xls", ";"),
+            ("", ";"),
+        ] {
             let error = settings.set(name, "true").unwrap_err().to_string();
-            assert!(error.contains("there is no such setting; there are "), "{name}: {error}");
-            assert!(error.contains("csv.bom"), "{name}: {error}");
+            let said = format!("there is no such setting{hint} there are csv.bom, ");
+            assert!(error.contains(&said), "{name}: {error}");
         }
         let error = settings.set("csv.bom", "yes").unwrap_err().to_string();
         assert_eq!(error, "csv.bom: expected true | false, found \"yes\"");
