@@ -388,6 +388,10 @@ fn of_a_body_with_a_limb_missing_that_limb_is_told() {
     let (_, limbs) = body.lines.iter().find(|(part, _)| *part == "limbs").unwrap();
     assert!(limbs.starts_with("not all: no whole left leg;"), "{limbs}");
     assert!(body.notes[0].message.contains("of the body no whole left leg is known"), "{body:?}");
+    let clip = cut(&clips::sample("kick.bvh"), &["LeftForeArm"]);
+    let lines = Description::new(&clip).lines;
+    let (_, arm) = lines.iter().find(|(part, _)| *part == "left arm").unwrap();
+    assert_eq!(arm, "LeftShoulder LeftArm and no joint beyond, by shape");
 }
 
 #[test]

@@ -218,14 +218,22 @@ fn limbs(
 }
 
 fn told(skeleton: &Skeleton, joints: &[usize], (is_named, is_said): (bool, bool)) -> String {
-    let names: Vec<&str> = joints.iter().map(|joint| &skeleton.joints[*joint].name[..]).collect();
+    let mut names: Vec<&str> =
+        joints.iter().map(|joint| &skeleton.joints[*joint].name[..]).collect();
+    // A limb that is cut short ends at the joint in its middle.
+    let is_cut = joints.windows(2).any(|pair| pair[0] == pair[1]);
+    names.dedup();
     let by = match (is_named, joints.len()) {
         _ if is_said => "as --bones says",
         (false, _) => "by shape",
         (true, 1) => "by name",
         (true, _) => "by names",
     };
-    let end = if joints.len() == 2 { " and its End Site" } else { "" };
+    let end = match (is_cut, joints.len()) {
+        (true, _) => " and no joint beyond",
+        (false, 2) => " and its End Site",
+        _ => "",
+    };
     format!("{}{end}, {by}", names.join(" "))
 }
 
