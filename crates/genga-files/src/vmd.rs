@@ -295,6 +295,7 @@ impl Vmd {
         let report = report(clip.skeleton(), &cast.model, &cast.found, 1.0);
         let mut notes = notes(&report, &cast.found);
         notes.extend(cast.still_limbs());
+        notes.extend(cast.undriven());
         notes.extend(self.name()?.1);
         notes.extend((!cast.has_leg()).then(no_legs));
         notes.extend(cast.notes);

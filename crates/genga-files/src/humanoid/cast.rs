@@ -23,6 +23,9 @@ const FOLDS: [(&str, &str, bool); 3] =
 const NEXT: [(&str, &str); 4] =
     [("腕", "ひじ"), ("ひじ", "手首"), ("足", "ひざ"), ("ひざ", "足首")];
 
+/// Bones beside those of the limbs that a person expects to move.
+const EXPECTED_MIDDLE: [&str; 2] = ["首", "頭"];
+
 /// The bone set of a motion.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum VmdBones {
@@ -109,6 +112,22 @@ impl Cast {
             still.join(", ")
         );
         (!still.is_empty()).then(|| Warning::new(STILL_LIMB, message))
+    }
+
+    /// Names the bones of the model that a person expects to move and that no joint drives.
+    pub(crate) fn undriven(&self) -> Option<Warning> {
+        let of_limbs = structure::LIMBS.iter().flat_map(|(_, bones)| {
+            Side::BOTH
+                .into_iter()
+                .flat_map(move |side| bones.iter().map(move |bone| side.named(bone)))
+        });
+        let expected = EXPECTED_MIDDLE.iter().map(|bone| (*bone).to_owned()).chain(of_limbs);
+        let is_undriven =
+            |bone: &String| self.model.find(bone).is_some() && self.joints(bone).is_empty();
+        let bones: Vec<String> = expected.filter(is_undriven).collect();
+        let message =
+            format!("vmd: no joint for the bones {}: they will not move", bones.join(", "));
+        (!bones.is_empty()).then(|| Warning::new("W_VMD_NO_JOINT", message))
     }
 
     /// Whether all joints of a leg are known on at least one side.

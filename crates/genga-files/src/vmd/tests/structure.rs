@@ -273,6 +273,20 @@ fn of_a_limb_that_is_cut_short_names_give_what_is_left() {
     assert!(notes.iter().any(|note| note.message.contains("left forearm will not")), "{notes:?}");
 }
 
+#[test]
+fn bones_that_every_model_has_and_the_body_lacks_are_told_in_one_line() {
+    let clip = body();
+    let sheet = Sheet::on_ones(clip.clock(24.0), 3);
+    let told = |clip: &Clip| {
+        let notes = Vmd::default().make(clip, &sheet).unwrap().notes;
+        let told = notes.into_iter().filter(|note| note.code == "W_VMD_NO_JOINT");
+        told.map(|note| note.message).collect::<Vec<_>>()
+    };
+    assert_eq!(told(&clip), [""; 0]);
+    let short = told(&cut(&clip, &["Head", "RightFoot", "LeftHand"]));
+    assert_eq!(short, ["vmd: no joint for the bones 頭, 左手首, 右足首: they will not move"]);
+}
+
 /// The clip with a second body in the same file, whose joints have other names.
 fn with_another(clip: &Clip, name: impl Fn(&str) -> String) -> Clip {
     let own = clip.skeleton();
