@@ -3,7 +3,8 @@
 use std::fs;
 
 use crate::batch::{code, numbered, results};
-use crate::program::Place;
+use crate::clips::here;
+use crate::program::{Place, column};
 
 const BATCH: &str = "batch data/kick.bvh data/pitch.bvh --out out";
 const AGAIN: &str = "note        written again, as the folder has them: ";
@@ -93,4 +94,50 @@ fn a_journal_that_does_not_tell_its_formats_is_read() {
     header["deliver"] = serde_json::json!(["xdts", "hologram"]);
     fs::write(&journal, format!("{header}\n{lines}")).unwrap();
     assert!(repeated(&place, "", 0).contains(&format!("{AGAIN}xdts (")));
+}
+
+#[test]
+fn what_was_not_done_as_asked_is_in_the_row_and_told() {
+    let place = Place::new();
+    let table = format!(
+        "clip,move,keys\n{0}/kick.bvh,12:80,\n{0}/pitch.bvh,,500\n{0}/tennis.bvh,,\n",
+        here("data").display()
+    );
+    fs::write(place.path("t.csv"), table)
+        .unwrap();
+    let said = place.said("batch @t.csv --out o");
+    let missed = "pitch.bvh: 500 genga were asked for";
+    let idle = "kick.bvh: no key is found at frame 12 ";
+    assert!(said.contains(missed) && said.contains(idle), "{said}");
+    let rows = fs::read_to_string(place.path("o/summary.csv")).unwrap();
+    let messages = column(&rows, "message");
+    assert!(messages[0].starts_with("no key is found at frame 12"), "{rows}");
+    assert!(messages[1].contains("500 genga were asked for") && messages[2].is_empty(), "{rows}");
+    assert_eq!(column(&rows, "warnings")[..2], ["W_NOTED", "W_NOTED"]);
+    // A batch that goes on says it again.
+    assert!(place.said("batch @t.csv --out o").contains(missed));
+}
+
+#[test]
+fn what_an_earlier_batch_left_is_told() {
+    let place = Place::new();
+    fs::create_dir_all(place.path("shots")).unwrap();
+    let take =
+        |clip: &str| fs::copy(here("data").join(clip), place.path("shots/shot01.bvh")).unwrap();
+    take("kick.bvh");
+    let told = "1 clip with another motion than before, whose files are replaced: shot01.bvh";
+    assert!(!place.said("batch shots --out o").contains("another motion"));
+    take("pitch.bvh");
+    assert!(place.said("batch shots --out o").contains(told));
+    assert!(!place.said("batch shots --out o").contains("another motion"));
+    let said = place.said("batch shots --pack --out o");
+    assert!(said.contains("o/clips is of an earlier batch, and stays as it was"), "{said}");
+    let said = place.said("batch shots --set spacing.on=3 --out o");
+    assert!(said.contains("o/clips.zip is of an earlier batch, and stays as it was"), "{said}");
+    let said = place.refused(2, "batch shots --out shots");
+    assert!(said.contains("shots: is the folder of --out, whose files are left out"), "{said}");
+    fs::write(place.path("t.csv"), "clip\nshots/shot01.bvh\n").unwrap();
+    let said = place.refused(2, "batch t.csv --out p");
+    assert!(said.contains("is a list of clips and no motion; @t.csv takes"), "{said}");
+    assert!(!place.path("p").exists());
 }

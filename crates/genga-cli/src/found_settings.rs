@@ -9,8 +9,11 @@ use genga::recipe::{KNOBS, Recipe};
 /// The words of each setting before and after the search, by its name.
 pub(super) type Found = BTreeMap<String, [String; 2]>;
 
-/// Returns the settings that differ between two recipes.
-pub(super) fn between(before: &Recipe, after: &Recipe) -> Result<Found, Error> {
+/// Returns the settings that differ between two recipes, in the order of a recipe.
+pub(super) fn between(
+    before: &Recipe,
+    after: &Recipe,
+) -> Result<Vec<(String, [String; 2])>, Error> {
     let words = KNOBS
         .iter()
         .map(|knob| Ok((knob.name.to_owned(), [before.get(knob.name)?, after.get(knob.name)?])));

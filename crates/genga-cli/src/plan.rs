@@ -240,7 +240,7 @@ impl<'a> Plan<'a> {
             Some(file) => args.pin_marked(file, engine, (recipe, edits), (&fault, note))?,
         };
         args.tell(&met, recipe, words)?.into_iter().for_each(&mut *note);
-        *found = found_settings::between(recipe, &met.recipe)?;
+        *found = found_settings::between(recipe, &met.recipe)?.into_iter().collect();
         *recipe = met.recipe;
         recipe.doubts(engine.clip()).into_iter().for_each(note);
         Ok(())

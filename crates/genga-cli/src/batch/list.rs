@@ -11,7 +11,7 @@ use walkdir::WalkDir;
 use super::super::commands;
 use super::super::failure::Failure;
 use super::super::files;
-use super::super::paths::is_motion;
+use super::super::paths::{self, is_motion};
 use super::super::plan::PlanArgs;
 use super::super::shell::quoted;
 use super::own_results::{is_in_batch, is_result, is_results};
@@ -104,7 +104,15 @@ fn of_word(word: &str, walk: &mut Walk) -> Result<Vec<Named>, Failure> {
     }
     let path = Path::new(word);
     if path.is_dir() {
-        return walk.folder(path);
+        return match walk.is_out(path) {
+            true => Err(is_out(path)),
+            false => walk.folder(path),
+        };
+    }
+    if path.is_file() && is_table(path) {
+        return Err(Failure::AskedWrongly(format!(
+            "{word}: is a list of clips and no motion; @{word} takes what it names"
+        )));
     }
     if !path.exists() && word.contains(['*', '?', '[']) {
         return walk.pattern(word);
@@ -113,6 +121,20 @@ fn of_word(word: &str, walk: &mut Walk) -> Result<Vec<Named>, Failure> {
         true => Ok(vec![(path.into(), Own::default())]),
         false => Err(Failure::io(path, io::ErrorKind::NotFound.into())),
     }
+}
+
+/// Whether a file is a list or a table by its name.
+fn is_table(path: &Path) -> bool {
+    let ending = paths::ending(path);
+    matches!(ending.as_deref(), Some("csv" | "tsv" | "txt" | "jsonl" | "ndjson"))
+}
+
+/// The failure of an output folder that is named as one of clips.
+fn is_out(path: &Path) -> Failure {
+    Failure::AskedWrongly(format!(
+        "{}: is the folder of --out, whose files are left out; name another folder with --out, as one in it",
+        path.display()
+    ))
 }
 
 /// Parses a list with one file per line; empty lines and lines that begin with # are skipped. Paths are the system's

@@ -15,7 +15,7 @@ use super::row::Line;
 use genga::error::Error;
 
 /// Folder that holds a folder per clip.
-pub(super) const CLIPS: &str = "clips";
+pub(crate) const CLIPS: &str = "clips";
 
 /// Digests of files by name.
 type Files = BTreeMap<String, String>;

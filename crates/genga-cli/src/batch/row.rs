@@ -20,6 +20,9 @@ pub(crate) struct Row {
     pub(crate) figures: Option<Figures>,
     /// Codes of the reader's warnings, each once.
     pub(crate) warnings: Vec<String>,
+    /// Targets that were missed, corrections without effect, and settings that may not be meant.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(crate) notes: Vec<String>,
     /// Names of files that a person changed, and which stay.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub(crate) kept: Vec<String>,
@@ -46,6 +49,9 @@ const PAINTED: &str = "W_PAINTED";
 
 /// Warning of a clip whose folder has other files that a person changed, which stay.
 const EDITED: &str = "W_EDITED";
+
+/// Warning of a clip with notes.
+const NOTED: &str = "W_NOTED";
 
 /// Begins the list of files that stay.
 pub(crate) const KEPT: &str = "kept, as changed by a person: ";
@@ -120,19 +126,21 @@ impl Row {
         (!self.kept.is_empty()).then(|| shortened(self.kept.clone()).join(" "))
     }
 
-    /// The message, and which files stay.
+    /// The message, the notes, and which files stay.
     pub(crate) fn said(&self) -> String {
         let message = Some(self.message.clone()).filter(|message| !message.is_empty());
         let kept = self.kept().map(|files| format!("{KEPT}{files}"));
-        message.into_iter().chain(kept).collect::<Vec<_>>().join("; ")
+        let notes = self.notes.iter().cloned();
+        message.into_iter().chain(notes).chain(kept).collect::<Vec<_>>().join("; ")
     }
 
     /// The codes of all warnings.
     fn codes(&self) -> String {
         let code = |file: &String| if is_picture(file) { PAINTED } else { EDITED };
         let kept: BTreeSet<&str> = self.kept.iter().map(code).collect();
+        let noted = (!self.notes.is_empty()).then_some(NOTED);
         let warnings = self.warnings.iter().map(String::as_str);
-        warnings.chain(kept).collect::<Vec<_>>().join(" ")
+        warnings.chain(noted).chain(kept).collect::<Vec<_>>().join(" ")
     }
 
     /// The cells after the clip's name.

@@ -5,6 +5,7 @@ use std::fs::File;
 use std::io::{self, BufRead, BufReader, BufWriter};
 use std::path::Path;
 
+use super::super::console::counted;
 use super::super::failure::Failure;
 use super::super::staging::Staging;
 use super::super::stop;
@@ -31,10 +32,17 @@ pub(crate) struct Count {
     /// The first clips with files that a person changed, one a line.
     pub(crate) kept: Vec<String>,
     pub(crate) keeps: usize,
+    /// The first clips with notes, one a line.
+    pub(crate) noted: Vec<String>,
+    pub(crate) notes: usize,
     /// The first finished clips with a warning and how many they are, by its code.
     pub(crate) warned: BTreeMap<String, (Vec<String>, usize)>,
     /// Names of folders that are of no clip.
     pub(crate) left: Vec<String>,
+    /// The folder or the archive of an earlier batch, whose clips this one wrote into the other.
+    pub(crate) other: Option<&'static str>,
+    /// Clips with another motion than that whose files this batch replaced.
+    pub(crate) replaced: Vec<String>,
 }
 
 /// Most failures listed in full.
@@ -147,10 +155,42 @@ impl Count {
         Ok(count)
     }
 
+    /// Says what earlier batches left in the folder, and which of their files are of another motion.
+    pub(crate) fn of_before(&self, out: &Path) -> Vec<String> {
+        let out = out.display();
+        let first = |names: &[String]| {
+            let more = if names.len() > NAMED { " …" } else { "" };
+            let names: Vec<&str> = names.iter().take(NAMED).map(String::as_str).collect();
+            format!("{}{more}", names.join(" "))
+        };
+        let folders = |left: &[String]| {
+            let folders = counted(left.len(), "folder");
+            format!(
+                "{folders} in {out}/clips of no clip of this batch, which stay: {}",
+                first(left)
+            )
+        };
+        let replaced = |names: &[String]| {
+            let clips = counted(names.len(), "clip");
+            format!(
+                "{clips} with another motion than before, whose files are replaced: {}",
+                first(names)
+            )
+        };
+        let other = |name| format!("{out}/{name} is of an earlier batch, and stays as it was");
+        let left = (!self.left.is_empty()).then(|| folders(&self.left));
+        let replaced = (!self.replaced.is_empty()).then(|| replaced(&self.replaced));
+        left.into_iter().chain(self.other.map(other)).chain(replaced).collect()
+    }
+
     fn add(&mut self, line: &Line) {
         let message = &line.row.message;
         if let Some(files) = line.row.kept() {
             name(&mut self.kept, &mut self.keeps, format!("{}: {files}", line.clip));
+        }
+        if !line.row.notes.is_empty() {
+            let notes = format!("{}: {}", line.clip, line.row.notes.join("; "));
+            name(&mut self.noted, &mut self.notes, notes);
         }
         if line.row.is_done() {
             self.done += 1;

@@ -299,8 +299,8 @@ fn drawn(
     let breakdown = engine.run_once(recipe, edits).map_err(files::fault_of(path))?;
     let numbering = earlier.numbering(breakdown.sheet, &clip);
     let breakdown = breakdown.with_sheet(&numbering.sheet);
-    notes.extend(run_notes::unmoved(edits, &breakdown));
-    let report = Report::new(&breakdown, notes);
+    notes.extend(run_notes::of_corrections(edits, &breakdown));
+    let report = Report::new(&breakdown, notes.clone());
     let name = paths::stem(path);
     let keys =
         Drawings { cut: name.clone(), rows: Rows::Keys }.write(breakdown.clip, breakdown.sheet)?;
@@ -324,6 +324,7 @@ fn drawn(
     let mut row = Row::done(&report, motion, digest.to_owned(), std::mem::take(warnings));
     let reasons: Vec<String> = unmade.into_iter().map(|warning| warning.message).collect();
     row.message = reasons.join("; ");
+    row.notes = notes;
     let ms = [read - begin, found - read, found.elapsed()].map(|time| time.as_secs_f64() * 1e3);
     let (has_old_numbers, keeps_numbers) = (numbering.has_old_ones(), numbering.is_kept);
     Ok(Drawn { row, keys, files, made_of: clip, has_old_numbers, keeps_numbers, ms })

@@ -12,7 +12,7 @@ use crate::batch::journal::{Header, Journal, Written, check_parts, is_journal};
 use crate::batch::left;
 use crate::batch::list::{self, Clips, Item};
 use crate::batch::pack::{self, ARCHIVE, Pack, Parcel};
-use crate::batch::place::Places;
+use crate::batch::place::{CLIPS, Places};
 use crate::batch::pool::Pool;
 use crate::batch::row::{KEPT, Line, Row};
 use crate::batch::shard::{Shard, largest_first};
@@ -166,6 +166,8 @@ struct State {
     failed: usize,
     /// Clips that were done before, among those that are done.
     resumed: usize,
+    /// Clips with another motion than that whose files are replaced.
+    replaced: Vec<String>,
     /// The error that stops the batch.
     fault: Option<Failure>,
 }
@@ -207,7 +209,15 @@ impl<'a> Batch<'a> {
             renumbers: args.renumber,
             fails_fast: args.fail_fast,
             progress: args.progress,
-            state: Mutex::new(State { journal, pack, done: 0, failed: 0, resumed: 0, fault: None }),
+            state: Mutex::new(State {
+                journal,
+                pack,
+                done: 0,
+                failed: 0,
+                resumed: 0,
+                replaced: vec![],
+                fault: None,
+            }),
         })
     }
 
@@ -253,7 +263,9 @@ impl<'a> Batch<'a> {
         let earlier = self.earlier(&item.name, before.as_ref());
         let mut parcel = self.is_packed.then(Parcel::default);
         let mut line = begun.finish(self.formats, &earlier, &self.staging, parcel.as_mut())?;
+        let is_other = self.is_other(&line, before.as_ref());
         let mut state = self.state();
+        state.replaced.extend(is_other.then(|| item.name.clone()));
         stop::undisturbed(|| {
             match (&mut state.pack, parcel) {
                 (Some(pack), Some(parcel)) if line.row.is_done() => pack.add(parcel)?,
@@ -263,6 +275,13 @@ impl<'a> Batch<'a> {
             let row = line.row.clone();
             state.journal.add(line).map(|()| row)
         })
+    }
+
+    /// Whether a clip's files, if they come into its folder, are of another motion than those that were there.
+    fn is_other(&self, line: &Line, before: Option<&Line>) -> bool {
+        let before = before.and_then(|line| line.made_of.as_ref());
+        let both = before.zip(line.made_of.as_ref());
+        !self.is_packed && both.is_some_and(|(before, now)| !before.is_of(now))
     }
 
     /// Returns what is in a clip's folder. An archive has no numbers to keep.
@@ -369,7 +388,8 @@ impl<'a> Batch<'a> {
             None => tables::write(&args.out, &journals, names())?,
             Some(_) => Count::of(&journals, names())?,
         };
-        count.resumed = state.resumed;
+        (count.resumed, count.replaced) = (state.resumed, state.replaced);
+        count.replaced.sort_unstable();
         let of = self.own.len();
         if stop::is_asked() {
             let finished = count.done + count.failures;
@@ -377,6 +397,10 @@ impl<'a> Batch<'a> {
                 "stopped with {finished} of {of} clips finished; the same command goes on from there"
             )));
         }
+        count.other = match state.pack {
+            Some(_) => Some(CLIPS).filter(|name| args.out.join(name).is_dir()),
+            None => Some(ARCHIVE).filter(|name| args.out.join(name).is_file()),
+        };
         if let Some(pack) = state.pack {
             let packs = [pack];
             pack::all(packs[0].path(), &packs, &journals, names())?;
@@ -429,8 +453,7 @@ fn join(args: &BatchArgs, words: &Words) -> Result<(), Failure> {
 
 /// Reports the outcome.
 fn end(count: &Count, of: usize, args: &BatchArgs, words: &Words) -> Result<(), Failure> {
-    let Count { done, resumed, failed, failures, lacking, lacks, kept, keeps, warned, left } =
-        count;
+    let Count { done, resumed, failed, failures, lacking, lacks, kept, keeps, warned, .. } = count;
     let out = args.out.display();
     let tables =
         if args.shard.is_none() { "summary.csv keys.csv times.csv" } else { "next --join" };
@@ -442,15 +465,10 @@ fn end(count: &Count, of: usize, args: &BatchArgs, words: &Words) -> Result<(), 
         let clips = counted(*resumed, "clip");
         words.say(format_args!("note        {clips} done already, not processed again"));
     }
-    if !left.is_empty() {
-        let folders = counted(left.len(), "folder");
-        let more = if left.len() > NAMED { " …" } else { "" };
-        let left: Vec<&str> = left.iter().take(NAMED).map(String::as_str).collect();
-        let left = left.join(" ");
-        words.say(format_args!(
-            "note        {folders} in {out}/clips of no clip of this batch, which stay: {left}{more}"
-        ));
-    }
+    count
+        .of_before(&args.out)
+        .iter()
+        .for_each(|line| words.say(format_args!("note        {line}")));
     let listed = |count: usize, clips: &[String]| {
         let more = if count > NAMED { "; …, all in summary.csv" } else { "" };
         format!("{}{more}", clips.join("; "))
@@ -465,6 +483,9 @@ fn end(count: &Count, of: usize, args: &BatchArgs, words: &Words) -> Result<(), 
             "note        clips with warnings (--strict refuses damaged ones): {}",
             warned.join(", ")
         ));
+    }
+    if count.notes > 0 {
+        words.say(format_args!("note        {}", listed(count.notes, &count.noted)));
     }
     if *keeps > 0 {
         words.say(format_args!("note        {KEPT}{}", listed(*keeps, kept)));
