@@ -103,8 +103,7 @@ fn what_was_not_done_as_asked_is_in_the_row_and_told() {
         "clip,move,keys\n{0}/kick.bvh,12:80,\n{0}/pitch.bvh,,500\n{0}/tennis.bvh,,\n",
         here("data").display()
     );
-    fs::write(place.path("t.csv"), table)
-        .unwrap();
+    fs::write(place.path("t.csv"), table).unwrap();
     let said = place.said("batch @t.csv --out o");
     let missed = "pitch.bvh: 500 genga were asked for";
     let idle = "kick.bvh: no key is found at frame 12 ";

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use super::console::counted;
+use super::format_args::shortened;
 use genga::edits::{Edits, Pin};
 use genga::sheet::{Layer, Role, Sheet};
 use genga::time::{Clock, Frame};
@@ -20,8 +21,8 @@ pub(super) struct MarkedKeys {
     notes: Vec<String>,
     /// Whether they are numbers on a timesheet. Their names are those numbers, and the ends of the clip have one too.
     is_timesheet: bool,
-    /// Frames of all of them.
-    frames: Vec<Frame>,
+    /// All of them.
+    all: Vec<MarkedKey>,
     /// Keys that are no pins.
     open: Vec<MarkedKey>,
     pinned: usize,
@@ -50,8 +51,8 @@ impl MarkedKeys {
     }
 
     fn new((file, column): (PathBuf, String), open: Vec<MarkedKey>, is_timesheet: bool) -> Self {
-        let frames = open.iter().map(|key| key.pin.frame).collect();
-        Self { file, column, notes: vec![], is_timesheet, frames, open, pinned: 0, gave_way: 0 }
+        let all = open.clone();
+        Self { file, column, notes: vec![], is_timesheet, all, open, pinned: 0, gave_way: 0 }
     }
 
     /// Sets the notes about the file.
@@ -130,7 +131,7 @@ impl MarkedKeys {
             let drawing = &own.drawings[drawing];
             let frame = Frame(drawing.source.place().round() as usize);
             let is_found = drawing.role == Role::Genga && drawing.why.pinned.is_none();
-            let is_marked = self.frames.contains(&frame);
+            let is_marked = self.all.iter().any(|key| key.pin.frame == frame);
             (is_found && !is_marked).then_some((sheet.blank.before + koma + 1, frame))
         });
         let found: Vec<(usize, Frame)> = found.collect();
@@ -147,6 +148,21 @@ impl MarkedKeys {
         ))
     }
 
+    /// Names the keys that stand on another koma than the one that was marked, if a genga could stand there.
+    fn elsewhere(&self, sheet: &Sheet, layer: Option<&str>) -> Option<String> {
+        let is_off = |key: &&MarkedKey| !self.is_on(sheet, layer, key);
+        let off = self.all.iter().filter(|key| key.koma.is_some()).filter(is_off);
+        let off =
+            off.filter_map(|key| Some(format!("koma {}", sheet.blank.before + key.koma? + 1)));
+        let off: Vec<String> = off.collect();
+        (!off.is_empty()).then(|| {
+            format!(
+                "marked too near to another genga, a step or an end to stand on its own koma: {}",
+                shortened(off).join(", ")
+            )
+        })
+    }
+
     /// Says what became of the keys.
     pub(super) fn notes(
         self,
@@ -154,6 +170,7 @@ impl MarkedKeys {
         (layer, edits): (Option<&str>, &Edits),
     ) -> Vec<String> {
         let unmarked = self.unmarked(sheet, layer).filter(|_| !edits.only_pins);
+        let elsewhere = self.elsewhere(sheet, layer);
         let Self { file, column, open, pinned, gave_way, .. } = self;
         let (file, there) = (file.display(), open.len());
         let mut said = vec![match (pinned + gave_way, there) {
@@ -176,6 +193,7 @@ impl MarkedKeys {
                 counted(gave_way, "other")
             ));
         }
+        said.extend(elsewhere);
         said.extend(unmarked);
         said.extend(self.notes);
         said

@@ -264,7 +264,11 @@ impl PlanArgs {
         let column = self.corrections.pin_column.as_deref();
         let mut marked = pin_args::read((file, column), engine, &sheet)?;
         let layer = pin_args::layer(&marked.column, engine, recipe)?.map(String::from);
-        let place = (layer.as_deref(), engine.clip().clock(recipe.rate));
+        let mut clock = engine.clip().clock(recipe.rate);
+        if let Some(repeat) = sheet.repeat {
+            clock.frame_rate = repeat.frame_rate(recipe.rate)?;
+        }
+        let place = (layer.as_deref(), clock);
         // A pin may take the place of another marked key, which is then pinned too.
         while marked.pin(&sheet, place, edits) {
             met = self.meet(engine, (recipe, edits), fault)?;

@@ -203,7 +203,12 @@ fn given<'a>(args: &'a RunArgs, folder: &Path) -> Option<&'a Path> {
 fn kept(given: Option<&Path>, used: (&Recipe, &Edits)) -> Option<&'static str> {
     let text = String::from_utf8(files::read(given?).ok()?).ok()?;
     match Recipe::parse(&text) {
-        Ok((recipe, edits)) if is_edit_of(&text, &recipe.write(&edits)) => None,
+        // The head of corrections stays when the last of them is deleted.
+        Ok((recipe, edits))
+            if is_edit_of(&text, &recipe.write(&Edits { only_pins: true, ..edits.clone() })) =>
+        {
+            None
+        }
         Ok((recipe, edits)) if (&recipe, &edits) == used => Some(KEPT),
         _ => Some(KEPT_WITHOUT),
     }

@@ -1,9 +1,12 @@
 //! Converts keys that a person marked on a timesheet to pins.
 
+use std::cmp::Reverse;
+use std::collections::BTreeMap;
+
 use super::read::{Change, Column, Mark};
 use genga::edits::Pin;
 use genga::error::Error;
-use genga::sheet::Sheet;
+use genga::sheet::{Repeat, Sheet};
 use genga::time::Frame;
 
 /// The meaning of a number without a circle.
@@ -35,8 +38,8 @@ pub struct MarkedKey {
 /// Returns the marked keys of a column as pins, named by column and number, such as `A3`.
 ///
 /// `sheet` is the sheet without these pins, and provides the clock. If one of its kept drawings begins on a
-/// marked koma, the pin is that drawing's source frame. Otherwise it is the source frame nearest to the
-/// koma, between `first` and `last`.
+/// marked koma, the pin is that drawing's source frame. Otherwise it is the first source frame of the
+/// koma, between `first` and `last`. Marks in any round of a loop are of its first.
 ///
 /// # Errors
 /// [`Error::Edits`] for a key on a blank koma, or beyond the sheet's last: the file belongs to another clip, or to another
@@ -69,8 +72,10 @@ pub fn pins(
             );
             return Err(Error::Edits { message });
         }
+        // All rounds of a loop are the first.
+        let koma = koma % (sheet.length() / sheet.rounds());
         let kept = kept_on(sheet, &column.name, koma);
-        let place = kept.unwrap_or_else(|| sheet.clock.place_from_koma(koma));
+        let place = kept.unwrap_or_else(|| first_of_koma(sheet, first, koma));
         let frame = Frame((place.round().max(0.0) as usize).clamp(first.0, last.0));
         let Mark::Drawing(number) = &change.mark else { unreachable!("only drawings are keys") };
         // Command-line syntax of pins is FRAME:NAME,… so names must not contain these characters.
@@ -79,6 +84,39 @@ pub fn pins(
         Ok(MarkedKey { pin, koma: kept.is_none().then_some(koma) })
     };
     marked_keys(column, numbered).into_iter().map(key).collect()
+}
+
+/// The first source frame of a koma. A loop begins in the midst of its source, whose first frame follows on its last.
+fn first_of_koma(sheet: &Sheet, first: Frame, koma: usize) -> f64 {
+    let Some(Repeat { frames, koma: of_round }) = sheet.repeat else {
+        return first_from(sheet.clock.place_from_koma(koma));
+    };
+    let in_koma = frames as f64 / of_round as f64;
+    let begin = begin_of_loop(&sheet.first_round(), first, (frames as f64, in_koma));
+    let later = first_from((begin + koma) as f64 * in_koma);
+    first.0 as f64 + later.rem_euclid(frames as f64)
+}
+
+/// The first frame at a place or after it, but for rounding.
+fn first_from(place: f64) -> f64 {
+    (place - 1e-6).ceil()
+}
+
+/// The koma of the source with which a loop begins, by most of its kept drawings.
+fn begin_of_loop(round: &Sheet, first: Frame, (frames, in_koma): (f64, f64)) -> usize {
+    let Some(layer) = round.layers.first() else { return 0 };
+    let start = layer.shown_at(0).map_or(0.0, |own| own.source.place());
+    let mut counts: BTreeMap<usize, usize> = BTreeMap::new();
+    for (koma, shown) in layer.timed() {
+        let drawing = &layer.drawings[shown.drawing];
+        let place = drawing.source.place();
+        let place = if place < start { place + frames } else { place };
+        let own = ((place - first.0 as f64) / in_koma + 1e-6).floor() as usize;
+        if let Some(begin) = own.checked_sub(koma).filter(|_| drawing.role.is_kept()) {
+            *counts.entry(begin).or_default() += 1;
+        }
+    }
+    counts.into_iter().max_by_key(|(begin, count)| (*count, Reverse(*begin))).map_or(0, |own| own.0)
 }
 
 /// The source place of the kept drawing that begins on a koma, if there is one, in the layer of that name or else in
