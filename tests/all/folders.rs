@@ -147,6 +147,13 @@ fn a_recipe_from_which_a_line_was_deleted_is_not_in_the_way() {
         said.contains("pin 42") && said.contains("pin 61") && !said.contains("forbid"),
         "{said}"
     );
+    // Also the last correction.
+    place.done("run data/kick.bvh --pin 61 --out b");
+    let recipe = text(&place.files("b")["recipe.toml"]).replace("[[edits.pins]]\nframe = 61\n", "");
+    fs::write(place.path("b/recipe.toml"), recipe).unwrap();
+    place.done("run data/kick.bvh --recipe b/recipe.toml --out b");
+    let said = place.said("run data/kick.bvh --pin 42 --out b");
+    assert!(said.contains("pin 42") && !said.contains("pin 61"), "{said}");
     // A person's own comment stays, also one that is part of a comment of genga's.
     for comment in ["# for the director", "# keys"] {
         let noted = format!("{}{comment}\n", text(&place.files("a")["recipe.toml"]));
@@ -166,7 +173,9 @@ fn a_painted_picture_of_an_older_pose_is_told_by_every_run() {
     let frame: usize = column(&table, "source_frame")[3].parse().unwrap();
     let name = format!("images/A_{:0>4}.png", column(&table, "drawing")[3]);
     change(&place, &format!("a/{name}"));
-    let told = format!("but would be drawn otherwise now (--overwrite NAME does): {name}");
+    let told = format!(
+        "but would be drawn otherwise now, in pose or framing (--overwrite NAME does): {name}"
+    );
     let same = place.said("run data/kuroda-pitch.bvh --out a");
     assert!(same.contains(&format!("not written again (--overwrite NAME does): {name}")), "{same}");
     for args in [format!("--move {frame}:{}", frame + 1), String::new()] {

@@ -237,3 +237,47 @@ fn a_number_that_was_taken_out_is_named_where_its_genga_comes_back() {
     let said = place.said("run data/kick.bvh --pin-from edited.csv --only-pins --out c");
     assert!(!said.contains("takes one away"), "{said}");
 }
+
+/// A koma begins between two frames of most rates, and a loop between two koma of its source.
+#[test]
+fn a_mark_stands_on_its_koma_or_is_told() {
+    for (run, rounds) in [
+        ("data/kick.bvh --fps 30", 1),
+        ("data/kick.bvh --fps 100", 1),
+        ("data/tennis.bvh --loop --trim 7..60", 1),
+        ("data/kick.bvh --loop --cycles 2 --trim 6..85", 2),
+    ] {
+        let place = Place::new();
+        place.done(&format!("run {run} --deliver xdts --out a"));
+        let name = if run.contains("tennis") { "tennis" } else { "kick" };
+        let file = read(&place, &format!("a/{name}_genga_ts.xdts"));
+        let (head, body) = file.split_once('\n').unwrap();
+        let sheet: serde_json::Value = serde_json::from_str(body).unwrap();
+        let koma = sheet["timeTables"][0]["duration"].as_u64().unwrap();
+        let (mut met, mut told) = (0, 0);
+        for at in (1..koma).step_by(3) {
+            let mut marked = sheet.clone();
+            mark(&mut marked, at);
+            fs::write(place.path("a/marked.xdts"), format!("{head}\n{marked}")).unwrap();
+            let said = place.said(&format!("run {run} --pin-from a/marked.xdts --fresh --out b"));
+            let keys = column(&read(&place, "b/keys.csv"), "koma_first");
+            let own = at % (koma / rounds) + 1;
+            let stands = keys.contains(&own.to_string());
+            let elsewhere = "to stand on its own koma: koma ";
+            assert_eq!(stands, !said.contains(elsewhere), "{run} {at}: {said}");
+            if stands { met += 1 } else { told += 1 }
+        }
+        assert!(met > 5 * told, "{run}: {met} {told}");
+    }
+}
+
+/// Writes a number on a koma of a timesheet's first column.
+fn mark(sheet: &mut serde_json::Value, koma: u64) {
+    let frames = sheet["timeTables"][0]["fields"][0]["tracks"][0]["frames"].as_array_mut().unwrap();
+    let data = serde_json::json!([{ "id": 0, "values": ["99"] }]);
+    match frames.iter_mut().find(|frame| frame["frame"] == koma) {
+        Some(frame) => frame["data"] = data,
+        None => frames.push(serde_json::json!({ "frame": koma, "data": data })),
+    }
+    frames.sort_by_key(|frame| frame["frame"].as_u64());
+}

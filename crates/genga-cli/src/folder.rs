@@ -67,13 +67,14 @@ impl Left {
     /// Returns a sentence for each group of files.
     pub(super) fn notes(self) -> Vec<String> {
         let named = |of: &str, files: Vec<String>| {
-            let named = format!("{of}: {}", shortened(files.clone()).join(" "));
-            (!files.is_empty()).then_some(named)
+            let (count, files) = (files.len(), shortened(files));
+            let count = if count > files.len() { format!(" ({count})") } else { String::new() };
+            (!files.is_empty()).then(|| format!("{of}: {}{count}", files.join(" ")))
         };
         let groups = [
             ("painted, kept and not written again (--overwrite NAME does)", self.painted),
             (
-                "painted, kept, but would be drawn otherwise now (--overwrite NAME does)",
+                "painted, kept, but would be drawn otherwise now, in pose or framing (--overwrite NAME does)",
                 self.outgrown,
             ),
             ("of an earlier run, removed", self.gone),

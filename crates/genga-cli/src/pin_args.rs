@@ -148,7 +148,7 @@ fn of_timesheet(
     if file.length != sheet.cut_length() {
         return Err(Failure::AskedWrongly(format!(
             "{}: it has {} koma and the sheet of this clip {}, so its keys may stand on other koma here; was \
-             the timing edited, or is another part (--trim) meant?",
+             the timing edited, or is another part (--trim), place or length (--at, --length) meant?",
             name.display(),
             file.length,
             sheet.cut_length()
