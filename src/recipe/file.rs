@@ -396,6 +396,7 @@ mod tests {
         }
         for (wrong, says) in [
             ("[edits]\npins = [42]", "expected { frame = 42 }"),
+            ("[edits]\nagain = True", "True is no switch; write true"),
             ("[edits]\nmoves = [\"41:42\"]", "expected { from = 79, to = 81 }"),
             ("[edits]\nholds = [4]", "expected { frame = 60, koma = 6 }"),
             ("[edits]\nforbidden = [07]", "leading zero"),

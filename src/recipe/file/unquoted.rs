@@ -53,6 +53,9 @@ pub(super) fn find_date(value: &Spanned<DeValue<'_>>) -> Option<Range<usize>> {
 /// Says that a value needs quotes, and how genga writes what stands there.
 pub(super) fn describe(text: &str, value: Range<usize>) -> String {
     let word = &text[value.clone()];
+    if let Some(switch) = switch(word) {
+        return format!("{word} is no switch; write {switch}");
+    }
     let key = key_of(text, value.start).unwrap_or_default();
     let is_meant = |name: &str| key.len() >= FEWEST && name.starts_with(key);
     let correction = CORRECTIONS.iter().find(|(name, _)| is_meant(name));
@@ -61,6 +64,16 @@ pub(super) fn describe(text: &str, value: Range<usize>) -> String {
         |(name, value)| format!("; genga writes {name} = {value}"),
     );
     format!("{word} is no number, and text needs quotes{writes}")
+}
+
+/// The value of a switch that a word means.
+fn switch(word: &str) -> Option<bool> {
+    let is_one = |words: [&str; 2]| words.iter().any(|own| word.eq_ignore_ascii_case(own));
+    match word {
+        _ if is_one(["true", "yes"]) => Some(true),
+        _ if is_one(["false", "no"]) => Some(false),
+        _ => None,
+    }
 }
 
 /// Whether TOML reads a word as a value.
