@@ -148,7 +148,7 @@ fn a_caption_has_the_command_and_a_recipe_that_gives_the_same_table() {
     let args = format!("study data/kick.bvh data/pitch.bvh {study} --plot p.svg --caption c.md");
     let table = place.done(&args);
     let caption = fs::read_to_string(place.path("c.md")).unwrap();
-    let begin = "**turns of the whole body** (全身の変わり目), a second of its clip, over `turns.persistence`";
+    let begin = "**turns of the whole body** (全身の変わり目), a second of its sheet, over `turns.persistence`";
     assert!(caption.starts_with(begin), "{caption}");
     assert!(caption.contains("| kick | 3.83 |\n| pitch | "), "{caption}");
     let inside = |fence: &str| {
@@ -172,6 +172,35 @@ fn a_caption_has_the_command_and_a_recipe_that_gives_the_same_table() {
     assert!(said.contains("a caption is .md or .txt"), "{said}");
     let said = place.refused(2, "study data/kick.bvh --plot p.svg --per-second --show peak_ssd");
     assert!(said.contains("does not grow with the length of a clip"), "{said}");
+}
+
+#[test]
+fn counts_a_second_are_divided_by_the_time_of_the_sheet_everywhere() {
+    let place = Place::new();
+    let shown = "--measure genga,genga_per_second --per-second --show genga";
+    let files = "--heat h.svg --caption c.md";
+    for (study, seconds) in [
+        ("kuroda-pitch.bvh --x filter.width=10,20", "4.96"),
+        ("kick.bvh --x rate=4,24", "3.83 to 4.00"),
+        ("tennis.bvh --trim 7..85 --set loop=true --x cycles=1,2", "3.21"),
+    ] {
+        let table = place.done(&format!("study data/{study} {shown} {files}"));
+        let caption = fs::read_to_string(place.path("c.md")).unwrap();
+        assert!(caption.contains(&format!(" | {seconds} |")), "{study}: {caption}");
+        let map = fs::read_to_string(place.path("h.svg")).unwrap();
+        for value in numbers(&table, "genga_per_second") {
+            let tenths = (10.0 * value).round() / 10.0;
+            assert!(map.contains(&format!(">{tenths}<")), "{study}: {value}");
+        }
+    }
+}
+
+#[test]
+fn joints_of_a_loop_are_counted_in_a_round_whatever_else_is_measured() {
+    let place = Place::new();
+    let study = "study data/tennis.bvh --trim 7..85 --set loop=true --x cycles=1,2 --measure union";
+    let alone = numbers(&place.done(study), "union");
+    assert_eq!(alone, numbers(&place.done(&format!("{study},genga")), "union"));
 }
 
 #[test]

@@ -20,7 +20,7 @@ use genga_lab::study::{Axis, Grid, Measure, Plateau};
 pub struct HeatMap {
     /// Measure to draw; default turns of the body.
     pub show: Measure,
-    /// Whether a count is drawn per second of its clip; default no.
+    /// Whether a count is drawn per second of its sheet; default no.
     pub per_second: bool,
 }
 

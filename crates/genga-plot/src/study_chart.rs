@@ -29,7 +29,7 @@ pub struct StudyPlot {
     pub height: u32,
     /// Measure to draw; default turns of the body.
     pub show: Measure,
-    /// Whether a count is drawn per second of its clip, so that clips of different lengths compare; default
+    /// Whether a count is drawn per second of its sheet, so that clips of different lengths compare; default
     /// no.
     pub per_second: bool,
     /// Whether the six values of the paper are added as hollow marks; default no. They come from another

@@ -13,8 +13,6 @@ pub struct Grid {
     pub y: Option<Axis>,
     /// The measures.
     pub measures: Vec<Measure>,
-    /// Duration of the clip in seconds.
-    pub seconds: f64,
     /// Source frames per koma of the recipe.
     pub frames_in_koma: f64,
     /// The cell nearest to the recipe's own settings, if they lie in the grid.
@@ -28,6 +26,8 @@ pub struct Grid {
 pub struct Cell {
     /// One value per measure.
     pub values: Vec<f64>,
+    /// Koma of its sheet over the koma rate, by which counts are divided per second; of a loop, those of a round.
+    pub seconds: f64,
     /// Frames of the layer's keys, if the study keeps them.
     pub keys: Option<Vec<Frame>>,
 }
@@ -54,6 +54,12 @@ impl Grid {
         [left, right, below, above].into_iter().flatten()
     }
 
+    /// Returns the least and the most seconds of a cell.
+    pub fn seconds(&self) -> (f64, f64) {
+        let seconds = || self.cells.iter().map(|cell| cell.seconds);
+        (seconds().fold(f64::INFINITY, f64::min), seconds().fold(0.0, f64::max))
+    }
+
     /// Returns a measure's value in every cell; `None` if it was not measured.
     pub fn values(&self, measure: Measure) -> Option<Vec<f64>> {
         let at = self.measures.iter().position(|own| *own == measure)?;
@@ -72,13 +78,13 @@ pub struct Spread {
     pub high: f64,
 }
 
-/// Returns the median and the quartiles over several clips of a measure in each cell, divided by each clip's seconds if
+/// Returns the median and the quartiles over several clips of a measure in each cell, divided by the cell's seconds if
 /// `per_second`; `None` if it was not measured.
 pub fn spreads(grids: &[Grid], measure: Measure, per_second: bool) -> Option<Vec<Spread>> {
     let values = |grid: &Grid| {
-        let seconds = if per_second { grid.seconds } else { 1.0 };
-        let values = grid.values(measure)?;
-        Some(values.into_iter().map(|value| value / seconds).collect())
+        let seconds = |cell: &Cell| if per_second { cell.seconds } else { 1.0 };
+        let values = grid.values(measure)?.into_iter().zip(&grid.cells);
+        Some(values.map(|(value, cell)| value / seconds(cell)).collect())
     };
     let of_clips: Vec<Vec<f64>> = grids.iter().map(values).collect::<Option<_>>()?;
     let cells = of_clips.iter().map(Vec::len).min()?;
@@ -112,10 +118,9 @@ mod tests {
             x: axis("filter.width=10"),
             y: None,
             measures: vec![Measure::Turns],
-            seconds,
             frames_in_koma: 5.0,
             own: None,
-            cells: vec![Cell { values: vec![value], keys: None }],
+            cells: vec![Cell { values: vec![value], seconds, keys: None }],
         }
     }
 

@@ -10,6 +10,7 @@ use genga::error::Error;
 use genga::keys::{BodyTurns, LayerKeys, Origin};
 use genga::maths::median;
 use genga::motion::Clip;
+use genga::recipe::Recipe;
 use genga::sheet::Layer;
 use genga::signal::Turn;
 use genga::timing::Stills;
@@ -69,6 +70,17 @@ impl Found<'_> {
     fn keys_of(&self, is_of: impl Fn(Origin) -> bool) -> f64 {
         let count = |keys: &LayerKeys| keys.keys.iter().filter(|key| is_of(key.origin)).count();
         self.keys.map_or(f64::NAN, |keys| count(keys) as f64)
+    }
+
+    /// Returns the koma of the sheet over the koma rate; of a loop, those of a round. Where the chain made no sheet, the
+    /// koma are those that the clip would have.
+    pub(super) fn seconds(&self, recipe: &Recipe) -> f64 {
+        let Some((layer, koma_rate)) = self.layer else {
+            let koma = self.clip.rate().koma_from_frames(self.clip.len(), recipe.rate);
+            return koma as f64 / recipe.rate;
+        };
+        let rounds = if recipe.r#loop { recipe.cycles } else { 1 };
+        layer.length().max(1) as f64 / koma_rate / rounds as f64
     }
 }
 

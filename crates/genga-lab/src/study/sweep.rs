@@ -210,7 +210,6 @@ impl Study {
             y: self.y.clone(),
             measures: self.measures.clone(),
             own: self.own_cell(clip.rate()),
-            seconds: clip.len() as f64 / clip.rate().fps(),
             frames_in_koma: clip.clock(self.recipe.rate).frames_in_koma(),
             cells,
         }
@@ -248,7 +247,8 @@ impl Study {
         let values = self.measures.iter().map(|measure| measure.evaluate(&found)).collect();
         let frames =
             |keys: &genga::keys::LayerKeys| keys.keys.iter().map(|key| key.frame).collect();
-        Ok(Cell { values, keys: found.keys.filter(|_| self.keep_keys).map(frames) })
+        let seconds = found.seconds(&setting.recipe);
+        Ok(Cell { values, seconds, keys: found.keys.filter(|_| self.keep_keys).map(frames) })
     }
 
     /// Returns the cell nearest to the recipe's own settings.
@@ -313,7 +313,7 @@ impl Bench {
         Ok(Self { clean: clip, noise: Noise::default(), budget, engine })
     }
 
-    /// Runs the chain up to `reach`.
+    /// Runs the chain up to `reach`; a loop to the end, where its round is cut out.
     fn found(&mut self, setting: &Setting, reach: Reach) -> Result<Found<'_>, Error> {
         if setting.noise != self.noise {
             self.engine = Engine::new(setting.noise.on(&self.clean))?.with_budget(self.budget);
@@ -321,6 +321,7 @@ impl Bench {
         }
         let (recipe, edits) = (&setting.recipe, Edits::default());
         let clip = &*self.clean;
+        let reach = if recipe.r#loop { Reach::Sheet } else { reach };
         Ok(match reach {
             Reach::Joints => {
                 let turns = self.engine.find_turns(recipe)?;

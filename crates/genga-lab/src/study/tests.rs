@@ -51,13 +51,13 @@ pub(super) fn grid_of_keys(columns: usize, rows: usize, keys: &[&[usize]]) -> Gr
     assert_eq!(keys.len(), columns * rows);
     let cell = |keys: &&[usize]| Cell {
         values: vec![],
+        seconds: 2.0,
         keys: Some(keys.iter().copied().map(Frame).collect()),
     };
     Grid {
         x: axis(&format!("filter.width=1..{columns}:1")),
         y: (rows > 1).then(|| axis(&format!("turns.persistence=1..{rows}:1"))),
         measures: vec![],
-        seconds: 2.0,
         frames_in_koma: 5.0,
         own: None,
         cells: keys.iter().map(cell).collect(),
@@ -127,6 +127,7 @@ fn slow(study: &Study, clip: &Clip) -> Vec<Cell> {
             };
             cells.push(Cell {
                 values: study.measures.iter().map(value).collect(),
+                seconds,
                 keys: study.keep_keys.then_some(frames),
             });
         }
@@ -138,11 +139,13 @@ const COUNTS: [Measure; 2] = [Measure::Union, Measure::Total];
 const KEYS: [Measure; 5] =
     [Measure::Union, Measure::Total, Measure::Turns, Measure::Genga, Measure::Fills];
 
-/// Whether cells are the same: equal keys, and values equal up to rounding of a division.
+/// Whether cells are the same: equal keys, and values and seconds equal up to rounding of a division.
 fn are_the_same(cells: &[Cell], others: &[Cell]) -> bool {
     let near = |(a, b): (&f64, &f64)| (a - b).abs() <= 1e-12 * b.abs();
-    let same =
-        |(a, b): (&Cell, &Cell)| a.keys == b.keys && a.values.iter().zip(&b.values).all(near);
+    let same = |(a, b): (&Cell, &Cell)| {
+        let values = a.values.iter().zip(&b.values).all(near);
+        values && near((&a.seconds, &b.seconds)) && a.keys == b.keys
+    };
     cells.len() == others.len() && cells.iter().zip(others).all(same)
 }
 

@@ -5,12 +5,11 @@ use genga_lab::study::{Cell, Grid, Measure, Plateau};
 
 /// Returns a grid of turns, and of totals ten times as large.
 fn grid(x: &str, y: Option<&str>, union: &[f64]) -> Grid {
-    let cell = |union: &f64| Cell { values: vec![*union, 10.0 * union], keys: None };
+    let cell = |union: &f64| Cell { values: vec![*union, 10.0 * union], seconds: 2.0, keys: None };
     let grid = Grid {
         x: x.parse().unwrap(),
         y: y.map(|y| y.parse().unwrap()),
         measures: vec![Measure::Turns, Measure::Total],
-        seconds: 2.0,
         frames_in_koma: 5.0,
         own: None,
         cells: union.iter().map(cell).collect(),
@@ -144,9 +143,10 @@ fn few_clips_are_thin_lines_behind_their_median_and_more_are_a_band() {
 
 #[test]
 fn clips_of_other_lengths_compare_by_the_second() {
-    let clip = |value: f64, seconds: f64| Grid {
-        seconds,
-        ..grid("filter.width=10,20", None, &[value; 2])
+    let clip = |value: f64, seconds: f64| {
+        let mut grid = grid("filter.width=10,20", None, &[value; 2]);
+        grid.cells.iter_mut().for_each(|cell| cell.seconds = seconds);
+        grid
     };
     let clips = [clip(6.0, 2.0), clip(60.0, 20.0)];
     let plot = StudyPlot { per_second: true, ..StudyPlot::default() };

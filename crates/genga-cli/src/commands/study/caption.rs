@@ -44,7 +44,7 @@ impl Drawn {
         text.push_str("\n\n| clip | seconds |\n|---|---|\n");
         for (name, grid) in names.iter().zip(grids) {
             let name = name.replace('|', "\\|");
-            let _ = writeln!(text, "| {name} | {:.2} |", grid.seconds);
+            let _ = writeln!(text, "| {name} | {} |", seconds(grid));
         }
         let axes = [Some(&study.x), study.y.as_ref()].into_iter().flatten();
         let on_axes: Vec<&str> = axes.map(Axis::name).collect();
@@ -60,7 +60,7 @@ impl Drawn {
 
     fn sentences(&self, study: &Study, clips: usize) -> String {
         let (english, japanese) = self.show.words();
-        let second = if self.per_second { ", a second of its clip" } else { "" };
+        let second = if self.per_second { ", a second of its sheet" } else { "" };
         let mut text = format!("**{english}** ({japanese}){second}, over {}.", varied(&study.x));
         if let Some(y) = &study.y {
             let rows = match (self.curves, self.map) {
@@ -92,6 +92,13 @@ impl Drawn {
         }
         text
     }
+}
+
+/// The seconds by which counts are divided: from the least to the most if they differ between cells.
+fn seconds(grid: &Grid) -> String {
+    let (least, most) = grid.seconds();
+    let (least, most) = (format!("{least:.2}"), format!("{most:.2}"));
+    if least == most { least } else { format!("{least} to {most}") }
 }
 
 /// Describes a setting with its unit and its values.
