@@ -1384,6 +1384,9 @@ fn a_command_line_that_was_not_understood_says_what_to_type() {
         ("run --out o kick.bvh more.bvh", "of many: genga batch kick.bvh more.bvh --out library"),
         ("split kick.bvh more.bvh", "takes one clip at a time; run genga split for each"),
         ("-q inspect kick.bvh more.bvh", "takes one clip at a time; run genga inspect for each"),
+        ("omit kick.bvh", "give one of --out, --table, --sheet, --plot"),
+        ("omit kick.bvh more.bvh", "(of several clips: --table)"),
+        ("deliver sheet.json kick.bvh --out o", "--to help lists the formats"),
         ("eval kick.bvh more.bvh", "run it for each: genga eval SHEET --clip CLIP"),
         (
             "eval kick.bvh more.bvh --clip kick.bvh",
@@ -1471,6 +1474,16 @@ fn a_length_is_also_taken_as_seconds_and_koma() {
     assert!(said.contains("koma 1 to 23 and 116 to 121 of 121"), "{said}");
     place.said("deliver a data/kick.bvh --length 5+2 --to remap --out b");
     place.refused(2, "run data/kick.bvh --length 0+0 --out a");
+}
+
+#[test]
+fn an_unknown_option_is_not_offered_as_a_value() {
+    let place = Place::new();
+    for args in ["inspect --json", "inspect data/kick.bvh --json", "study --wide", "run --wide"] {
+        let said = place.refused(2, args);
+        assert!(said.contains("unexpected argument"), "{said}");
+        assert!(!said.contains("as a value"), "{said}");
+    }
 }
 
 #[test]

@@ -22,11 +22,25 @@ pub(super) fn args() -> Args {
 }
 
 fn with_tip(mut error: clap::Error) -> clap::Error {
+    drop_tips_to_pass_an_option(&mut error);
     if let Some(tip) = tip(&error) {
         let tips = vec![StyledStr::from(tip)];
         error.insert(ContextKind::Suggested, ContextValue::StyledStrs(tips));
     }
     error
+}
+
+/// Drops tips to put `--` before an unknown option: no value is called like one.
+fn drop_tips_to_pass_an_option(error: &mut clap::Error) {
+    if error.kind() != ErrorKind::UnknownArgument {
+        return;
+    }
+    if let Some(ContextValue::StyledStrs(mut tips)) = error.remove(ContextKind::Suggested) {
+        tips.retain(|tip| !tip.to_string().contains("as a value"));
+        if !tips.is_empty() {
+            error.insert(ContextKind::Suggested, ContextValue::StyledStrs(tips));
+        }
+    }
 }
 
 fn tip(error: &clap::Error) -> Option<String> {
@@ -44,8 +58,19 @@ fn tip(error: &clap::Error) -> Option<String> {
             let word = word(ContextKind::InvalidArg)?;
             if Path::new(word).exists() { Some(one_at_a_time(word)) } else { setting_like(word) }
         }
+        ErrorKind::MissingRequiredArgument => {
+            lacks_formats(error).then(|| "--to help lists the formats".into())
+        }
         _ => None,
     }
+}
+
+/// Whether `--to` is missing.
+fn lacks_formats(error: &clap::Error) -> bool {
+    let Some(ContextValue::Strings(lacking)) = error.get(ContextKind::InvalidArg) else {
+        return false;
+    };
+    lacking.iter().any(|argument| argument.starts_with("--to "))
 }
 
 /// Suggests `--set` if an option has the last part of a setting's name, as `--naka-nashi`.

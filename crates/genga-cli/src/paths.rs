@@ -105,6 +105,16 @@ pub(super) fn check_folder(
     Err(Failure::AskedWrongly(message))
 }
 
+/// Help on an option that draws: what it draws, and the formats that this build writes.
+pub(super) fn picture_help(what: &str) -> String {
+    let formats = match (cfg!(feature = "pdf"), cfg!(feature = "pictures")) {
+        (true, _) => "SVG, PDF or PNG",
+        (false, true) => "SVG or PNG",
+        (false, false) => "SVG",
+    };
+    format!("{what}, as an {formats} file")
+}
+
 /// Refuses, before any work, a picture whose format cannot be written.
 pub(super) fn check_picture(option: &str, path: Option<&PathBuf>) -> Result<(), Failure> {
     match path.and_then(|path| ending(path)).as_deref() {

@@ -25,8 +25,7 @@ pub(super) struct InspectArgs {
     /// Print only the warnings, on stdout, one per line: code, line:column (- for the whole clip), sentence.
     #[arg(long)]
     warnings: bool,
-    /// Also draw the skeleton, its rest pose and hierarchy, as an SVG, PDF or PNG file.
-    #[arg(long, value_name = "FILE.svg", conflicts_with = "warnings")]
+    #[arg(long, value_name = "FILE.svg", help = paths::picture_help("Also draw the skeleton, its rest pose and hierarchy"), conflicts_with = "warnings")]
     plot: Option<PathBuf>,
 }
 

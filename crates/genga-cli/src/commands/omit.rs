@@ -48,7 +48,7 @@ pub(super) struct OmitArgs {
     #[arg(long)]
     let_length_change: bool,
     /// Limited motion as a BVH file at 24 frames per second; - is stdout.
-    #[arg(long, short, value_name = "FILE.bvh", required_unless_present_any = ["table", "sheet", "plot"])]
+    #[arg(long, short, value_name = "FILE.bvh")]
     out: Option<PathBuf>,
     /// Print a row of the second paper's Table 1 for each clip as CSV, or write them to a file (--table=FILE.csv): frames at 24 per
     /// second, left-out ones (N_io), held ones (N_hf), and the time in milliseconds, which differs from run to run.
@@ -59,8 +59,7 @@ pub(super) struct OmitArgs {
     /// Timesheet as a CSV file.
     #[arg(long, value_name = "FILE.csv")]
     sheet: Option<PathBuf>,
-    /// Draw the movement into each koma, before and after omission, as an SVG, PDF or PNG file.
-    #[arg(long, value_name = "FILE.svg")]
+    #[arg(long, value_name = "FILE.svg", help = paths::picture_help("Draw the movement into each koma, before and after omission"))]
     plot: Option<PathBuf>,
 }
 
@@ -80,7 +79,7 @@ pub(super) fn run(args: &OmitArgs, words: &Words) -> Result<(), Failure> {
     several.end()
 }
 
-/// Refuses to overwrite an input, and to write one file of several clips.
+/// Refuses to write nothing, to overwrite an input, and to write one file of several clips.
 fn check_files(args: &OmitArgs) -> Result<(), Failure> {
     let of_one = || args.sheet.iter().chain(&args.plot).chain(&args.out);
     if args.clips.len() > 1 && of_one().next().is_some() {
@@ -88,6 +87,10 @@ fn check_files(args: &OmitArgs) -> Result<(), Failure> {
         return Err(Failure::AskedWrongly(message.into()));
     }
     let targets = || of_one().chain(&args.table);
+    if targets().next().is_none() {
+        let message = "give one of --out, --table, --sheet, --plot (of several clips: --table)";
+        return Err(Failure::AskedWrongly(message.into()));
+    }
     let clips = args.clips.iter().map(|clip| ("motion", Some(&**clip)));
     let sources: Vec<_> = clips.chain([("camera", camera_args::file(&args.seen))]).collect();
     targets().try_for_each(|target| paths::spare(&sources, target))?;

@@ -67,11 +67,9 @@ pub(super) struct StudyArgs {
     /// CSV file of the table; - is stdout.
     #[arg(long, short, value_name = "FILE.csv", default_value = "-")]
     out: PathBuf,
-    /// Draw a measure as curves over the first setting, as an SVG, PDF or PNG file.
-    #[arg(long, value_name = "FILE.svg")]
+    #[arg(long, value_name = "FILE.svg", help = paths::picture_help("Draw a measure as curves over the first setting"))]
     plot: Option<PathBuf>,
-    /// Draw a measure as a map of both settings, with its value in each cell, as an SVG, PDF or PNG file.
-    #[arg(long, value_name = "FILE.svg")]
+    #[arg(long, value_name = "FILE.svg", help = paths::picture_help("Draw a measure as a map of both settings, with its value in each cell"))]
     heat: Option<PathBuf>,
     /// Write a caption for the pictures as a Markdown file: their content and clips, and the recipe and command that
     /// reproduce them.
@@ -81,7 +79,7 @@ pub(super) struct StudyArgs {
     /// --stability or a setting of keys, drawings with a setting of the sheet].
     #[arg(long, value_name = "MEASURE")]
     show: Option<Measure>,
-    /// Draw counts per second of the clip, so that clips of different lengths compare. The table keeps the counts.
+    /// Draw counts per second of the sheet, so that clips of different lengths compare. The table keeps the counts.
     #[arg(long)]
     per_second: bool,
     /// Also draw the paper's six counts, from a clip that is not public.
@@ -110,7 +108,7 @@ fn study_help() -> String {
          with --stability\n  that of `genga run`; --recipe goes over both.\n\n\
          Measures:{}\n\n\
          Examples:\n  genga study a.bvh --filter-width 5..40:5 --persistence 1..20:1 --heat map.svg\n  \
-         genga study a.bvh b.bvh --x keys.min_price=2..20:2 --plot curves.pdf\n  \
+         genga study a.bvh b.bvh --x keys.min_price=2..20:2 --plot curves.svg\n  \
          genga study a.bvh --x noise=0..1:0.1 --y filter.width=0.05s..0.2s:0.05s --stability",
         measures.concat()
     )
