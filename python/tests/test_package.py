@@ -905,7 +905,7 @@ def test_a_tolerance_that_is_no_length_is_refused(tolerance, clip):
 
 def test_reference_keys_beyond_the_sheet_are_told_as_a_warning(clip):
     result = genga.run(clip)
-    with pytest.warns(UserWarning, match=r"^1 reference key beyond frames 0 to \d+ of the sheet do not count$"):
+    with pytest.warns(UserWarning, match=r"^1 reference key beyond frames 0 to \d+ of the sheet does not count$"):
         found = genga.evaluate(clip, result, reference=[20, 46, 5000])
     with warnings.catch_warnings():
         warnings.simplefilter("error")
@@ -924,7 +924,7 @@ def test_its_own_keys_are_all_found_and_those_beside_an_end_are_told():
     assert genga.evaluate(clip, result, reference=result) == found
     beside, notes = told(lambda: genga.evaluate(clip, result, reference=[*keys, keys[-1] + 1]))
     assert beside == found
-    says = f"1 reference key before frame {clip.first + 4} or from frame {keys[-1]} on, in the first or last koma, do"
+    says = f"1 reference key before frame {clip.first + 4} or from frame {keys[-1]} on, in the first or last koma, does"
     assert len(notes) == 1 and notes[0].startswith(says), notes
 
 

@@ -93,7 +93,7 @@ fn what_lies_in_the_last_koma_is_an_end() {
     assert_eq!(timing["f1"], 1.0, "{timing}");
     fs::write(place.path("all.txt"), format!("{}\n{}", all.join("\n"), end + 1)).unwrap();
     let output = place.genga(&format!("{eval} all.txt --json -"));
-    let told = format!("or from frame {end} on, in the first or last koma, do not count");
+    let told = format!("or from frame {end} on, in the first or last koma, does not count");
     assert!(text(&output.stderr).contains(&told), "{}", text(&output.stderr));
     assert_eq!(json(&text(&output.stdout))["timing"], timing);
 }

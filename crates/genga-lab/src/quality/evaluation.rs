@@ -150,21 +150,23 @@ impl Evaluation {
         }
         let count_of = |is_of: &dyn Fn(Frame) -> bool| {
             let count = distinct.iter().filter(|frame| is_of(**frame)).count();
-            (count > 0)
-                .then(|| format!("{count} reference {}", if count == 1 { "key" } else { "keys" }))
+            let (noun, verb) = if count == 1 { ("key", "does") } else { ("keys", "do") };
+            (count > 0).then(|| (format!("{count} reference {noun}"), verb))
         };
         let (first, last) = (clip.first(), clip.last());
-        if let Some(keys) = count_of(&|frame| !clip.contains(frame)) {
-            notes.push(format!("{keys} beyond frames {first} to {last} of the sheet do not count"));
+        if let Some((keys, verb)) = count_of(&|frame| !clip.contains(frame)) {
+            notes.push(format!(
+                "{keys} beyond frames {first} to {last} of the sheet {verb} not count"
+            ));
         }
         let inner = inner(clip, sheet.clock);
         let is_drawn = |frame| [first, inner.end, last].contains(&frame);
-        if let Some(keys) =
+        if let Some((keys, verb)) =
             count_of(&|frame| clip.contains(frame) && !inner.contains(&frame) && !is_drawn(frame))
         {
             let Range { start, end } = inner;
             notes.push(format!(
-                "{keys} before frame {start} or from frame {end} on, in the first or last koma, do not count: \
+                "{keys} before frame {start} or from frame {end} on, in the first or last koma, {verb} not count: \
                  the ends are always drawn"
             ));
         }
