@@ -19,7 +19,7 @@ use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyBytes, PyDict, PyType};
 
 use crate::arrays::{self, Arrays, Places};
-use crate::error::{asked_wrongly, in_python, raised, raised_of};
+use crate::error::{asked_wrongly, in_python, raised, raised_of, warned};
 use crate::pickle::{Head, Reduced};
 use crate::words::whole;
 use crate::work;
@@ -83,6 +83,18 @@ impl Clip {
     }
 
     /// The names of the joints.
+    /// Issues the warnings as Python's; `path` is that of the file.
+    fn warn(&self, py: Python<'_>, path: Option<&Path>) -> PyResult<()> {
+        let told = |((_, _, place), note): (&Told, String)| match path {
+            Some(path) => {
+                let between = if place.is_some() { ":" } else { ": " };
+                format!("{}{between}{note}", path.display())
+            }
+            None => note,
+        };
+        self.warnings.iter().zip(self.notes()).try_for_each(|note| warned(py, told(note)))
+    }
+
     pub fn joints(&self) -> Vec<String> {
         self.motion.skeleton().joints.iter().map(|joint| joint.name.clone()).collect()
     }
@@ -429,7 +441,7 @@ fn is_bvh(path: &Path) -> bool {
 /// clip's name. `fps` replaces the rate of the file. `root` is the root of the one tree of joints to read, `take` the
 /// take of a file with several. `up` is the axis that points up ("x", "y", "z"). `skeleton` is the path of the model of
 /// a VMD (PMX, PMD), or of the ASF of an AMC. `repair` replaces a value of a BVH that is no number by the one before
-/// it. `strict` raises the first warning as an error.
+/// it. `strict` raises the first warning as an error; else they are Python warnings, and in `warnings` of the clip.
 #[pyfunction]
 #[pyo3(signature = (source, *, name=None, fps=None, root=None, take=None, up=None, skeleton=None, repair=false, strict=false, keep_lead_in=false, keep_glitches=false, trim=None))]
 #[expect(clippy::too_many_arguments, reason = "each has a name in Python")]
@@ -474,5 +486,7 @@ pub fn read(
         Ok((clip, warnings))
     })?;
     let (motion, warnings) = made.map_err(|error| raised_of(py, error, at.as_deref()))?;
-    Ok(Clip::new(Arc::new(motion), file, warnings))
+    let clip = Clip::new(Arc::new(motion), file, warnings);
+    clip.warn(py, at.as_deref())?;
+    Ok(clip)
 }

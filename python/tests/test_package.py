@@ -1243,6 +1243,37 @@ def test_a_wrong_argument_is_named(call, says, clip):
         call(clip)
 
 
+@pytest.mark.parametrize(
+    "call",
+    [
+        genga.read,
+        genga.run,
+        lambda path: genga.study(path, x=("filter.width", [10])),
+        lambda path: genga.study([KICK, path], x=("filter.width", [10])),
+        genga.omit,
+        lambda path: genga.evaluate(path, genga.run(genga.read(path.read_bytes()))),
+        lambda path: genga.compare(path, keys=[4], noise=0.0),
+    ],
+)
+def test_a_damaged_file_is_told_by_every_call_that_reads_it(call, tmp_path):
+    path = tmp_path / "cut.bvh"
+    path.write_text("".join(KICK.read_text().splitlines(keepends=True)[:-20]))
+    _, notes = told(lambda: call(path))
+    of_file = [note for note in notes if note.startswith(f"{path}:")]
+    assert len(of_file) == 1 and of_file[0].endswith("[W_FRAMES_MISMATCH]"), notes
+
+
+def test_what_was_changed_in_a_clip_is_told_and_kept(tmp_path):
+    lines = KICK.read_text().splitlines(keepends=True)
+    damaged = "".join(lines[:-20])
+    clip, notes = told(lambda: genga.read(damaged))
+    assert [warning["code"] for warning in clip.warnings] == ["W_FRAMES_MISMATCH"]
+    assert len(notes) == 1 and notes[0].endswith(f"{clip.warnings[0]['message']} [W_FRAMES_MISMATCH]")
+    result, again = told(lambda: genga.run(clip))
+    assert again == [] and any(notes[0] == note for note in result.report["notes"])
+    assert told(lambda: genga.read(KICK))[1] == []
+
+
 def test_what_is_lost_or_does_not_count_is_told_as_a_warning(clip):
     with pytest.warns(UserWarning, match="W_VMD_LEFT_OUT"):
         genga.run(clip).to_vmd()
