@@ -33,7 +33,8 @@ use crate::work;
 /// of each joint's bone, NaN if unknown; soles and hands are found from it. (J, T, 3) holds up to T ends of each.
 /// `first` is the number of the first frame. `up` ("x", "y", "z") and `metres` per unit of length are found in the
 /// motion if they are not given. Float64 arrays in C order are read in place; NumPy copies all others first. The
-/// attributes of a clip, given again, are the same motion with the same keys.
+/// attributes of a clip, given again, make a clip with the same keys. Channels and angles are made anew, so that the
+/// motion differs by rounding and `evaluate` warns of sheets of the other clip; a pickled copy is exact.
 #[pyclass(frozen, module = "genga")]
 pub struct Clip {
     pub motion: Arc<Motion>,

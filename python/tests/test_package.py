@@ -150,6 +150,13 @@ def test_arrays_out_and_in_again_give_the_same_keys():
         assert asked["reason"].tolist() == wanted["reason"].tolist(), path.name
 
 
+def test_a_pickled_copy_is_exact_and_one_of_the_attributes_is_not(clip):
+    result = genga.run(clip)
+    assert told(lambda: genga.evaluate(pickle.loads(pickle.dumps(clip)), result))[1] == []
+    assert told(lambda: genga.evaluate(genga.Clip(**arrays_of(clip)), result))[1] != []
+    assert "differs by rounding" in " ".join(genga.Clip.__doc__.split())
+
+
 def test_what_a_clip_says_of_itself_is_what_it_was_made_of(clip):
     tips = np.full((len(clip.names), 2, 3), np.nan)
     tips[-1] = [(0, -7, 0), (1, 0, 0)]
