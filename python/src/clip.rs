@@ -21,7 +21,7 @@ use pyo3::types::{PyBytes, PyDict, PyType};
 use crate::arrays::{self, Arrays, Places};
 use crate::error::{asked_wrongly, in_python, raised, raised_of, warned};
 use crate::pickle::{Head, Reduced};
-use crate::words::whole;
+use crate::words::{unexpected, whole};
 use crate::work;
 
 /// A motion clip of F frames and J joints.
@@ -83,7 +83,6 @@ impl Clip {
         self.warnings.iter().map(of_one).collect()
     }
 
-    /// The names of the joints.
     /// Issues the warnings as Python's; `path` is that of the file.
     fn warn(&self, py: Python<'_>, path: Option<&Path>) -> PyResult<()> {
         let told = |((_, _, place), note): (&Told, String)| match path {
@@ -96,6 +95,7 @@ impl Clip {
         self.warnings.iter().zip(self.notes()).try_for_each(|note| warned(py, told(note)))
     }
 
+    /// The names of the joints.
     pub fn joints(&self) -> Vec<String> {
         self.motion.skeleton().joints.iter().map(|joint| joint.name.clone()).collect()
     }
@@ -154,7 +154,7 @@ impl Clip {
     fn from_arrays(
         py: Python<'_>,
         names: Vec<String>,
-        parents: Vec<i64>,
+        #[pyo3(from_py_with = parents_of)] parents: Vec<i64>,
         offsets: &Bound<'_, PyAny>,
         rotations: &Bound<'_, PyAny>,
         rate: f64,
@@ -376,6 +376,11 @@ impl Clip {
 
 fn first_of(given: &Bound<'_, PyAny>) -> PyResult<usize> {
     whole("first", given)
+}
+
+fn parents_of(given: &Bound<'_, PyAny>) -> PyResult<Vec<i64>> {
+    let expected = "whole numbers, -1 for a root, as in [-1, 0, 1]; of an array of floats, parents.astype(int)";
+    given.extract().map_err(|_| unexpected("parents", expected, given))
 }
 
 /// Names of the axes.

@@ -649,6 +649,8 @@ def test_wrong_arrays_are_refused_in_words(clip):
         genga.Clip(**{**good, "parents": [1, -1]}, rotations=unit)
     with pytest.raises(genga.Error, match="-2 is no parent"):
         genga.Clip(**{**good, "parents": [-1, -2]}, rotations=unit)
+    with pytest.raises(genga.Error, match=r"parents: expected whole numbers, .*astype\(int\), found array"):
+        genga.Clip(**{**good, "parents": np.array([-1.0, 0.0])}, rotations=unit)
     with pytest.raises(genga.Error, match="needs a joint and a frame"):
         genga.Clip(**{**good, "root": np.zeros((0, 3))}, rotations=unit[:0])
     wrong = {"parents": [-1], "offsets": np.zeros((2, 2)), "root": np.zeros((4, 3)), "tips": np.zeros((3, 3))}
