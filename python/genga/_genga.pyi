@@ -1,4 +1,4 @@
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from os import PathLike
 from typing import Any, Optional, TypedDict, Union, final
 
@@ -286,7 +286,7 @@ def omit(
 ) -> Omitted: ...
 def tangents(keys: Sequence[int], samples: npt.ArrayLike) -> _Floats: ...
 def study(
-    clip: Union[_Source, Sequence[_Source]],
+    clip: Union[_Source, Iterable[_Source]],
     recipe: Optional[Recipe] = None,
     *,
     x: Optional[_Axis] = None,

@@ -10,7 +10,7 @@ use genga_lab::quality::{Compare, Evaluation, Row};
 use genga_lab::study::{Axis, Grid, Measure, Noise, Study, is_table_1, table_1_recipe};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyList, PyTuple};
+use pyo3::types::PyDict;
 
 use crate::clip::{Clip, Given, taken};
 use crate::error::{asked_wrongly, raised, warned};
@@ -33,7 +33,7 @@ use crate::work;
 /// axis is a setting of the sheet (`spacing`, `omission`). The column of a setting has numbers if all of its values are plain
 /// numbers, whole ones if all are whole: `table["union"][table["filter.width"] == 10]`. If one has a unit or is a word
 /// (`"0.1s"`, `"4%"`, `"none"`), the column has text, each value as the recipe file writes it. With `per_joint` the columns are `joint` and `keys` and the
-/// rows one per joint. Several clips, or motion files, have a column `clip` first. A setting that is also an axis raises
+/// rows one per joint. Several clips, or motion files, in a list or another iterable, have a column `clip` first. A setting that is also an axis raises
 /// `genga.Error`.
 #[pyfunction]
 #[pyo3(signature = (clip, recipe=None, *, x=None, y=None, measures=None, per_joint=false, **settings))]
@@ -141,12 +141,14 @@ fn axes<'py>(
     }
 }
 
-/// Returns the clips of a list, or the one that is given, and whether it is a list.
+/// Returns the clips of a list or another iterable, or the one that is given, and whether there may be several.
 fn several<'py>(source: &Bound<'py, PyAny>) -> PyResult<(Vec<Bound<'py, Clip>>, bool)> {
-    if !source.is_instance_of::<PyList>() && !source.is_instance_of::<PyTuple>() {
-        return Ok((vec![taken(source)?], false));
-    }
-    let clips: Vec<_> = source.try_iter()?.map(|clip| taken(&clip?)).collect::<PyResult<_>>()?;
+    let sources = match source.extract::<Given<'_>>() {
+        Ok(_) => None,
+        Err(_) => source.try_iter().ok(),
+    };
+    let Some(sources) = sources else { return Ok((vec![taken(source)?], false)) };
+    let clips: Vec<_> = sources.map(|clip| taken(&clip?)).collect::<PyResult<_>>()?;
     match clips.is_empty() {
         true => Err(asked_wrongly(source.py(), "there is no clip in the list")),
         false => Ok((clips, true)),

@@ -825,8 +825,13 @@ def test_a_study_takes_several_clips(clip):
     joints = genga.study([clip, pitch], per_joint=True)
     assert len(joints["keys"]) == 6 * (len(clip.names) + len(genga.read(pitch).names))
     assert joints["clip"].tolist() == sorted(joints["clip"].tolist())
-    with pytest.raises(genga.Error, match="no clip in the list"):
-        genga.study([])
+    of_any = genga.study(one for one in (clip, pitch))
+    same_table(of_any, table)
+    for none in ([], iter(())):
+        with pytest.raises(genga.Error, match="no clip in the list"):
+            genga.study(none)
+    with pytest.raises(TypeError, match="expected a genga.Clip, a path or bytes, not <class 'int'>"):
+        genga.study(7)
 
 
 @pytest.mark.parametrize("settings", [{}, {"rate": 12}, {"keys": {"min_price": 1}}, {"layers": "limbs"}])
