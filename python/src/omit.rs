@@ -135,6 +135,8 @@ impl Omitted {
 
     fn __repr__(&self) -> String {
         let Self { frames, n_io, n_hf, .. } = self;
-        format!("<genga.Omitted: {frames} frames, {n_io} left out, {n_hf} held>")
+        format!(
+            "<genga.Omitted: {frames} frames, koma cut {n_io} times (n_io), {n_hf} frames held (n_hf)>"
+        )
     }
 }

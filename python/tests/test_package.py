@@ -909,6 +909,9 @@ def test_what_is_cut_again_is_counted_as_said(clip):
     gone = found.frames - len(np.unique(found.sheet.exposures["drawing"]))
     assert found.n_io >= gone
     assert "cut again" in genga.Omitted.n_io.__doc__
+    many = genga.omit(clip, naka_nashi=102, koma_dori=0)
+    assert many.n_io > many.frames, "so that its representation says of what"
+    assert f"koma cut {many.n_io} times (n_io)" in repr(many)
 
 
 @pytest.mark.parametrize("tolerance", [-1, math.nan, math.inf])
