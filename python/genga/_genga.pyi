@@ -12,7 +12,7 @@ _Table = dict[str, npt.NDArray[Any]]
 _Frames = Union[int, str, tuple[Any, ...]]
 _Values = Union[str, Sequence[Any], npt.NDArray[Any]]
 _Axis = Union[tuple[str, _Values], dict[str, _Values]]
-_Keys = Union[Sequence[float], npt.NDArray[Any], Result, str, PathLike[str], bytes]
+_Keys = Union[Sequence[int], npt.NDArray[Any], Result, str, PathLike[str], bytes]
 _Source = Union[Clip, str, PathLike[str], bytes]
 
 __version__: str
