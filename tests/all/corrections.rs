@@ -167,7 +167,7 @@ fn a_target_finds_in_its_folder_what_it_finds_in_a_new_one() {
         let stay = said.lines().find(|line| line.contains("settings as in")).unwrap_or_default();
         assert!(!stay.contains("keys."), "{said}");
         assert_eq!(
-            said.contains("not as in a/recipe.toml, where a target had found"),
+            said.contains("not as in a/recipe.toml, where an earlier target found"),
             before,
             "{said}"
         );
@@ -227,6 +227,15 @@ fn the_corrections_of_another_clip_are_not_taken_over() {
     fs::write(place.path("a/recipe.toml"), "[edits]\npins = 3\n").unwrap();
     let broken = place.refused(2, "run data/pitch.bvh --out a");
     assert!(broken.contains("a/recipe.toml:2:") && broken.contains("--fresh"), "{broken}");
+}
+
+#[test]
+fn a_clash_with_a_correction_that_stays_names_its_recipe() {
+    let place = Place::new();
+    place.done("run data/kuroda-pitch.bvh --pin 100 --out a");
+    let said = place.refused(2, "run data/kuroda-pitch.bvh --pin 101 --out a");
+    let named = "take one of them away; corrections stay from a/recipe.toml";
+    assert!(said.contains(named), "{said}");
 }
 
 #[test]

@@ -465,7 +465,10 @@ fn the_keys_of_a_timesheet_are_the_frames_that_its_own_sheet_shows() {
     let back = place.genga(&format!("keys data/pitch.bvh --pin-from {marked} --only-pins"));
     assert_eq!(frames(&text(&back.stdout)), own);
     let said = text(&back.stderr);
-    assert!(said.contains("its koma show what they do in a/sheet.json"), "{said}");
+    assert!(
+        said.contains("its marks are read as koma of a/sheet.json, the sheet beside it"),
+        "{said}"
+    );
     // Without that sheet, its koma are those of the default recipe.
     fs::rename(place.path(marked), place.path("pitch_genga_ts.xdts")).unwrap();
     let alone = "keys data/pitch.bvh --pin-from pitch_genga_ts.xdts --only-pins";

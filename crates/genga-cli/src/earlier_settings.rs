@@ -16,6 +16,8 @@ pub(super) struct EarlierSettings {
     settings: Vec<(String, String)>,
     /// Those that an earlier target found and that another is to find anew.
     found: Vec<(String, String)>,
+    /// Whether corrections of that recipe stay too.
+    has_corrections: bool,
 }
 
 impl EarlierSettings {
@@ -26,7 +28,7 @@ impl EarlierSettings {
         let settings = earlier.settings().into_iter().filter(|own| !usual.contains(own));
         let (settings, found): (Vec<_>, Vec<_>) = settings.partition(|own| start.contains(own));
         let settings = settings.into_iter().filter(|own| now.contains(own)).collect();
-        Self { from: from.display().to_string(), settings, found }
+        Self { from: from.display().to_string(), settings, found, has_corrections: false }
     }
 
     /// Says which settings stay and which do not, as options for a shell; without those for which a target found
@@ -37,18 +39,32 @@ impl EarlierSettings {
         let gone = self.found.iter().filter(|own| !now.contains(own));
         let said = [
             (options(stay), format!("settings as in {from} (--fresh goes without)")),
-            (options(gone), format!("not as in {from}, where a target had found them")),
+            (
+                options(gone),
+                format!(
+                    "not as in {from}, where an earlier target found them (targets hold together in one run)"
+                ),
+            ),
         ];
         let said = said.into_iter().filter(|(options, _)| !options.is_empty());
         said.map(|(options, what)| format!("{what}: {options}")).collect()
     }
 
-    /// Adds to the error of a setting where other settings come from that nobody gave now, or the clip's path to
+    /// Notes that corrections stay too.
+    pub(super) fn keep_corrections(&mut self, from: &Path) {
+        (self.from, self.has_corrections) = (from.display().to_string(), true);
+    }
+
+    /// Adds to the error of a setting or a correction where others come from that nobody gave now, or the clip's path to
     /// another.
     pub(super) fn fault_among(&self, error: Error, clip: &Path) -> Failure {
         match error {
             Error::Setting { .. } if !self.settings.is_empty() => Failure::AskedWrongly(format!(
                 "{error}; settings stay from {}, and --fresh goes without them",
+                self.from
+            )),
+            Error::Edits { .. } if self.has_corrections => Failure::AskedWrongly(format!(
+                "{error}; corrections stay from {}, and --fresh goes without them",
                 self.from
             )),
             error => files::fault_of(clip)(error),

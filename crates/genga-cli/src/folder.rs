@@ -268,16 +268,19 @@ impl<'a> Folder<'a> {
         let Some((first, more)) = others.split_first() else { return Ok(()) };
         let more =
             if more.is_empty() { String::new() } else { format!(" (nor {})", more.join(" ")) };
-        // An edited recipe is usually meant.
-        let recipe = match self.path.join(Run::RECIPE) {
+        // An edited recipe or timesheet is usually meant.
+        let way_in = match self.path.join(first) {
             path if *first == Run::RECIPE => {
                 format!("; to run with it: --recipe {}", path.display())
+            }
+            path if matches!(paths::ending(&path).as_deref(), Some("xdts" | "tdts")) => {
+                format!("; to pin the keys that are marked in it: --pin-from {}", path.display())
             }
             _ => String::new(),
         };
         Err(Failure::AskedWrongly(format!(
             "{}: this file is not as a run wrote it{more}, and would be lost; move it, write elsewhere with --out, or write over \
-             it with --force{recipe}",
+             it with --force{way_in}",
             self.path.join(first).display()
         )))
     }

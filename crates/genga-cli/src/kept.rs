@@ -43,6 +43,9 @@ pub(super) fn keep(
     plan.edits = plan.over(usable);
     let now = list(&plan.edits);
     let (kept, gone): (Vec<_>, Vec<_>) = listed.into_iter().partition(|one| now.contains(one));
+    if !kept.is_empty() {
+        plan.earlier.keep_corrections(&path);
+    }
     let said = [
         (kept, format!("kept from {from} (--fresh goes without)")),
         (gone, format!("of {from}, replaced")),

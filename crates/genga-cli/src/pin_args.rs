@@ -159,9 +159,9 @@ fn of_timesheet(
     let has_marks =
         column.changes.iter().any(|change| change.circled || change.mark == Mark::Inbetween);
     let mut notes: Vec<String> = into_args::unread(bytes, name)?.into_iter().collect();
-    notes.extend(
-        beside.map(|(path, _)| format!("its koma show what they do in {}", path.display())),
-    );
+    notes.extend(beside.map(|(path, _)| {
+        format!("its marks are read as koma of {}, the sheet beside it", path.display())
+    }));
     if numbered == Numbered::Keys && !has_marks {
         notes.push("it has no inbetween marks, so every number on it is a key".into());
     }

@@ -7,6 +7,7 @@ use genga::keys::{Cycle, Key, Origin};
 use genga::motion::Clip;
 use genga::pipeline::{Breakdown, LayerBreakdown};
 use genga::sheet::{Drawing, Exposure, Layer, Role};
+use genga::time::Frame;
 use genga::timing::{held_for, is_of_last};
 
 /// Says that a clip can be repeated, or that the seam of a loop shows.
@@ -103,7 +104,7 @@ fn unheld(edits: &Edits, breakdown: &Breakdown<'_>) -> Vec<String> {
             let of = if layers.len() > 1 { format!("{}/", layer.name) } else { String::new() };
             let ends =
                 breakdown.sheet.repeat.is_none() && is_of_last(layer, *hold, breakdown.clock);
-            let why = why_not(koma > asked, ends);
+            let why = why_not(koma > asked, ends, next_genga(layer, frame));
             said.push(format!(
                 "the drawing of frame {of}{frame} was to stay for {asked} koma and stays for {koma}: {why}"
             ));
@@ -113,14 +114,25 @@ fn unheld(edits: &Edits, breakdown: &Breakdown<'_>) -> Vec<String> {
 }
 
 /// Says why a held drawing stays longer or shorter than asked, and what to do.
-fn why_not(is_longer: bool, ends: bool) -> &'static str {
+fn why_not(is_longer: bool, ends: bool, next: Option<Frame>) -> String {
+    let next = next.map_or_else(String::new, |frame| format!(", of frame {frame},"));
     if is_longer {
-        "none is left to follow it, or one would be on screen too briefly; pin what should follow it sooner"
+        "none is left to follow it, or one would be on screen too briefly; pin what should follow it sooner".into()
     } else if ends {
         "it is the last drawing, and the cut ends there; a greater length makes the cut longer"
+            .into()
     } else {
-        "the next genga stands there, or none would stay for one koma; move or forbid that genga to hold longer"
+        format!(
+            "the next genga{next} stands there or would be on screen too briefly; move or forbid it to hold longer"
+        )
     }
+}
+
+/// The frame of the first genga behind a frame, in the order of the sheet.
+fn next_genga(layer: &Layer, frame: Frame) -> Option<Frame> {
+    let frames = layer.shown().filter(|drawing| drawing.role == Role::Genga);
+    let frames = frames.map(|drawing| Frame(drawing.source.place().round() as usize));
+    frames.into_iter().find(|own| *own > frame)
 }
 
 /// Builds the note for a hold without a drawing near its frame; it names the one that is on screen there.

@@ -218,7 +218,13 @@ fn of_table(text: &str) -> Result<Vec<Row>, (usize, String)> {
     let mut reader = reader.from_reader(text.as_bytes());
     let options = Options::new();
     let fault = |error: csv::Error| {
-        (error.position().map_or(1, |place| place.line() as usize), error.to_string())
+        let reason = match error.kind() {
+            csv::ErrorKind::UnequalLengths { expected_len, len, .. } => format!(
+                "{len} cells, and the table has {expected_len} columns; a cell with a comma needs quotes"
+            ),
+            _ => error.to_string(),
+        };
+        (error.position().map_or(1, |place| place.line() as usize), reason)
     };
     let header = reader.headers().map_err(fault)?.clone();
     if !header.iter().any(|name| name == CLIP) {

@@ -493,8 +493,11 @@ fn end(count: &Count, of: usize, args: &BatchArgs, words: &Words) -> Result<(), 
     let named = |count: usize, what: &str, clips: &[String]| {
         (count > 0).then(|| format!("{count} of {of} {what}: {}", listed(count, clips)))
     };
+    let untried = of.saturating_sub(*done + *failures);
+    let untried = (untried > 0 && args.fail_fast).then(|| format!("{untried} of {of} not tried"));
     let faults = [named(*failures, "failed", failed), named(*lacks, "lack a format", lacking)];
-    let message = faults.into_iter().flatten().collect::<Vec<_>>().join("; ");
+    let faults = faults.into_iter().flatten().chain(untried);
+    let message = faults.collect::<Vec<_>>().join("; ");
     if message.is_empty() {
         return Ok(());
     }
