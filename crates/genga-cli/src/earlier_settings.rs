@@ -58,17 +58,15 @@ impl EarlierSettings {
     /// Adds to the error of a setting or a correction where others come from that nobody gave now, or the clip's path to
     /// another.
     pub(super) fn fault_among(&self, error: Error, clip: &Path) -> Failure {
-        match error {
-            Error::Setting { .. } if !self.settings.is_empty() => Failure::AskedWrongly(format!(
-                "{error}; settings stay from {}, and --fresh goes without them",
-                self.from
-            )),
-            Error::Edits { .. } if self.has_corrections => Failure::AskedWrongly(format!(
-                "{error}; corrections stay from {}, and --fresh goes without them",
-                self.from
-            )),
-            error => files::fault_of(clip)(error),
-        }
+        let stay = match &error {
+            Error::Setting { .. } if !self.settings.is_empty() => "settings",
+            Error::Edits { .. } if self.has_corrections => "corrections",
+            _ => return files::fault_of(clip)(error),
+        };
+        Failure::AskedWrongly(format!(
+            "{error}; {stay} stay from {}, and --fresh goes without them",
+            self.from
+        ))
     }
 }
 

@@ -34,17 +34,6 @@ impl LookArgs {
     /// Makes the settings of all formats.
     pub(super) fn settings(&self) -> Result<Settings, Failure> {
         let mut settings = Settings::default();
-        self.put(&mut settings)?;
-        Ok(settings)
-    }
-
-    /// Whether a setting is given.
-    pub(super) fn gives(&self, name: &str) -> bool {
-        self.with.iter().any(|(given, _)| given == name)
-            || (name.ends_with(CAMERA) && self.camera.is_some())
-    }
-
-    fn put(&self, settings: &mut Settings) -> Result<(), Failure> {
         if let Some(camera) = self.camera {
             settings.look_from(camera);
         }
@@ -66,7 +55,13 @@ impl LookArgs {
                     .map_err(|error| Failure::AskedWrongly(format!("--with: {error}")))?;
             }
         }
-        Ok(())
+        Ok(settings)
+    }
+
+    /// Whether a setting is given.
+    pub(super) fn gives(&self, name: &str) -> bool {
+        self.with.iter().any(|(given, _)| given == name)
+            || (name.ends_with(CAMERA) && self.camera.is_some())
     }
 }
 

@@ -1,11 +1,11 @@
-//! The formats of a batch (前回の形式): those that are named, or those that the folder has.
+//! The formats of a batch (前回の形式): the named ones, or else those of the last batch.
 
 use super::super::failure::Failure;
 use super::super::format_args::{FormatArgs, Formats};
 use super::journal::Written;
 use genga_files::{BoneMap, Format};
 
-/// Format of a batch that names none, in a folder that has none.
+/// Format of the first batch of a folder if it names none.
 const DEFAULT: &str = "json";
 
 /// Returns the formats to write for each clip, and what is to be said of those that the last batch wrote. A batch that

@@ -33,7 +33,7 @@ pub(crate) struct Header {
     pub(crate) clips: usize,
     pub(crate) part: usize,
     pub(crate) parts: usize,
-    /// What is written for each clip. The next batch that names no formats writes them again.
+    /// Formats of every clip. The next batch writes them again if it names none.
     #[serde(flatten)]
     pub(crate) written: Written,
 }
@@ -70,19 +70,24 @@ impl Header {
         }
     }
 
-    /// What the last batch of this part wrote into a folder.
+    /// Formats that the last batch of this part wrote into a folder.
     pub(crate) fn written_in(folder: &Path, shard: Shard) -> Written {
         let path = file(folder, shard.index, shard.count);
         let mut line = String::new();
         let read = File::open(path).and_then(|file| BufReader::new(file).read_line(&mut line));
-        let header = read.ok().filter(|_| Self::is_header(&line));
-        let header: Option<Self> = header.and_then(|_| serde_json::from_str(&line).ok());
+        let header = read.ok().and_then(|_| Self::parse(&line));
         header.map(|header| header.written).unwrap_or_default()
+    }
+
+    /// Parses the header of a journal; `None` for any other line.
+    fn parse(line: &str) -> Option<Self> {
+        let header: Self = serde_json::from_str(line).ok()?;
+        (header.schema == SCHEMA).then_some(header)
     }
 
     /// Whether a line is the header of a journal.
     pub(crate) fn is_header(line: &str) -> bool {
-        serde_json::from_str(line).is_ok_and(|header: Self| header.schema == SCHEMA)
+        Self::parse(line).is_some()
     }
 
     /// Path of this part's journal in a folder.

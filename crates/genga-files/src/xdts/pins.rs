@@ -50,6 +50,8 @@ pub fn pins(
     sheet: &Sheet,
     (first, last): (Frame, Frame),
 ) -> Result<Vec<MarkedKey>, Error> {
+    // All rounds of a loop are the first.
+    let round = sheet.first_round();
     let key = |change: &Change| {
         let before = sheet.blank.before;
         let Some(koma) = change.koma.checked_sub(before) else {
@@ -72,10 +74,9 @@ pub fn pins(
             );
             return Err(Error::Edits { message });
         }
-        // All rounds of a loop are the first.
-        let koma = koma % (sheet.length() / sheet.rounds());
-        let kept = kept_on(sheet, &column.name, koma);
-        let place = kept.unwrap_or_else(|| first_of_koma(sheet, first, koma));
+        let koma = koma % round.length();
+        let kept = kept_on(&round, &column.name, koma);
+        let place = kept.unwrap_or_else(|| first_of_koma(&round, first, koma));
         let frame = Frame((place.round().max(0.0) as usize).clamp(first.0, last.0));
         let Mark::Drawing(number) = &change.mark else { unreachable!("only drawings are keys") };
         // Command-line syntax of pins is FRAME:NAME,… so names must not contain these characters.
@@ -87,12 +88,12 @@ pub fn pins(
 }
 
 /// The first source frame of a koma. A loop begins in the midst of its source, whose first frame follows on its last.
-fn first_of_koma(sheet: &Sheet, first: Frame, koma: usize) -> f64 {
-    let Some(Repeat { frames, koma: of_round }) = sheet.repeat else {
-        return first_from(sheet.clock.place_from_koma(koma));
+fn first_of_koma(round: &Sheet, first: Frame, koma: usize) -> f64 {
+    let Some(Repeat { frames, koma: of_round }) = round.repeat else {
+        return first_from(round.clock.place_from_koma(koma));
     };
     let in_koma = frames as f64 / of_round as f64;
-    let begin = begin_of_loop(&sheet.first_round(), first, (frames as f64, in_koma));
+    let begin = begin_of_loop(round, first, (frames as f64, in_koma));
     let later = first_from((begin + koma) as f64 * in_koma);
     first.0 as f64 + later.rem_euclid(frames as f64)
 }

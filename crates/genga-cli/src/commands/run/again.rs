@@ -9,8 +9,7 @@ use crate::format_args::Formats;
 use crate::paths;
 use genga_files::{ClipMark, Cut, Format};
 
-/// Adds the formats of a folder, with their settings. Returns what was added, and what was not, in
-/// words.
+/// Adds the formats of a folder, with their settings. Returns notes on what was added and what was not.
 pub(super) fn add(
     mut formats: Formats,
     args: &RunArgs,
